@@ -11,7 +11,7 @@ use super::fly::fly;
 use super::progress::Progress;
 use super::report::{self, COLUMNS};
 use shadowgraph::core::TimeSummary;
-use shadowgraph::{CulledView, Culling, Gpu, Pipeline, Registry, RenderConfig, Renderer, ViewOptions};
+use shadowgraph::{Culling, Gpu, Pipeline, Registry, RenderConfig, Renderer, ViewOptions};
 use shadowgraph_quality::TextTable;
 use shadowgraph_quality::bench::{
     Comparison, FrameTime, INSTANCES, MATERIALS, ManyFrames, MovingFrameTime, MovingFrames, Stats,
@@ -214,11 +214,8 @@ fn culled_table(gpu: &Gpu, renderer: &mut Renderer, view: &ViewOptions) -> Resul
     if culled.is_empty() {
         return Ok(String::new());
     }
-    let rows = culled.into_iter().map(|CulledView { view, instances }| [view, instances.to_string()]);
-    let rows: Vec<_> =
-        [["culled on the GPU", "instances"].map(str::to_owned)].into_iter().chain(rows).collect();
     let all = renderer.casters().scene.instance_count();
-    let table = TextTable { alignment: "lr", indent: 2, width: COLUMNS }.format(rows);
+    let table = report::culled(&culled);
     Ok(format!("\ndrawn of {all} instances, in a frame after the measured ones\n{table}"))
 }
 

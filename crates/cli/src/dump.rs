@@ -37,7 +37,11 @@ fn plan_text(args: &DumpArgs, format: Format, mut input: Input) -> Result<String
     let (gpu, drawn) = planned(&args.draw, args.frames, input)?;
     Ok(match format {
         Format::Text if drawn.times.is_empty() => report::text(&lights, &drawn),
-        Format::Text => report::text(&lights, &drawn) + "\n" + &report::times(&drawn.times, &gpu.adapter),
+        Format::Text => {
+            let times = report::times(&drawn.times, &gpu.adapter);
+            let culled = if drawn.culled.is_empty() { String::new() } else { report::culled(&drawn.culled) };
+            [&report::text(&lights, &drawn), "\n", &times, &culled].concat()
+        }
         Format::Json => report::json(&lights, &drawn)?,
         Format::Dot => drawn.plan.to_dot(),
         Format::Mermaid => drawn.plan.to_mermaid(),
@@ -150,9 +154,9 @@ fn disabled(node: &str, pipeline: &Pipeline) -> String {
 fn planned(args: &DrawArgs, frames: FramesArgs, input: Input) -> Result<(Gpu, Planned), Failure> {
     if input.options.timings {
         let gpu = Gpu::open(&input.options.adapter).map_err(Failure::no_device)?;
-        let RenderedFrame { plan, times, unshadowed, .. } =
+        let RenderedFrame { plan, times, unshadowed, culled, .. } =
             draw_frames(&gpu, input, frames, &mut |_, _| Ok(()))?;
-        return Ok((gpu, Planned { plan, times, unshadowed }));
+        return Ok((gpu, Planned { plan, times, unshadowed, culled }));
     }
     let gpu = if args.names_adapter() {
         Gpu::open(&input.options.adapter).map_err(Failure::no_device)?
@@ -163,5 +167,5 @@ fn planned(args: &DrawArgs, frames: FramesArgs, input: Input) -> Result<(Gpu, Pl
     let (mut renderer, view) = play(&gpu, input, frames, &drawing, &mut |_, _| Ok(()))?;
     renderer.begin_frame(&gpu, &view)?;
     let (plan, unshadowed) = renderer.plan(&view)?;
-    Ok((gpu, Planned { plan, times: Vec::new(), unshadowed }))
+    Ok((gpu, Planned { plan, times: Vec::new(), unshadowed, culled: Vec::new() }))
 }

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::failure::Failure;
 use serde_json::{Value, json};
+use shadowgraph::CulledView;
 use shadowgraph::core::{PassTime, Plan};
 use shadowgraph::inspect::lights::{kind, shadows, unit};
 use shadowgraph::scene::Light;
@@ -20,6 +21,8 @@ pub(crate) struct Planned {
     /// Empty unless requested.
     pub(crate) times: Vec<PassTime>,
     pub(crate) unshadowed: Vec<Unshadowed>,
+    /// Empty unless times are requested and the GPU culls.
+    pub(crate) culled: Vec<CulledView>,
 }
 
 /// Formats the plan as text, with the scene's lights.
@@ -56,9 +59,22 @@ pub(crate) fn json(lights: &[Light], planned: &Planned) -> Result<String, Failur
     if !planned.times.is_empty() {
         document["times"] = serde_json::to_value(&planned.times)?;
     }
+    if !planned.culled.is_empty() {
+        let culled = planned.culled.iter();
+        document["culled"] =
+            culled.map(|view| json!({"view": view.view, "instances": view.instances})).collect();
+    }
     let mut text = serde_json::to_string_pretty(&document)?;
     text.push('\n');
     Ok(text)
+}
+
+/// Returns a table of the instances that views draw which the GPU culls.
+pub(crate) fn culled(culled: &[CulledView]) -> String {
+    let heading = ["culled on the GPU", "instances"].map(str::to_owned);
+    let rows = culled.iter().map(|CulledView { view, instances }| [view.clone(), instances.to_string()]);
+    let rows: Vec<_> = [heading].into_iter().chain(rows).collect();
+    TextTable { alignment: "lr", indent: 2, width: COLUMNS }.format(rows)
 }
 
 /// Returns the lights without shadows, a sentence for each reason.

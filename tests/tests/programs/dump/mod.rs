@@ -1,5 +1,6 @@
 //! The output of `shadowgraph dump` for the demo scene.
 
+mod culled;
 mod diff;
 mod schema;
 
