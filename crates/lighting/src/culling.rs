@@ -299,7 +299,7 @@ impl CullPass {
 
 const UNIFORM: wgpu::BufferBindingType = wgpu::BufferBindingType::Uniform;
 /// `seen_before` of `cull.wgsl`.
-const SEEN_BEFORE: wgpu::BindGroupLayoutEntry = texture(0, wgpu::TextureSampleType::Uint);
+const SEEN_BEFORE: wgpu::BindGroupLayoutEntry = texture(0);
 /// `seen_now` of `cull.wgsl`.
 const SEEN_NOW: wgpu::BindGroupLayoutEntry = wgpu::BindGroupLayoutEntry {
     ty: wgpu::BindingType::StorageTexture {
@@ -307,7 +307,7 @@ const SEEN_NOW: wgpu::BindGroupLayoutEntry = wgpu::BindGroupLayoutEntry {
         format: SEEN_FORMAT,
         view_dimension: wgpu::TextureViewDimension::D2,
     },
-    ..texture(1, wgpu::TextureSampleType::Uint)
+    ..texture(1)
 };
 /// `occluders` of `cull.wgsl`.
 const OCCLUDERS: wgpu::BindGroupLayoutEntry = buffer(3, wgpu::BufferBindingType::Storage { read_only: true });
@@ -326,12 +326,12 @@ pub(crate) fn seen_desc(instances: u32) -> TextureDesc {
 /// The width of large textures of [`SeenHistory`].
 const SEEN_WIDTH: u32 = 2048;
 
-const fn texture(binding: u32, sample_type: wgpu::TextureSampleType) -> wgpu::BindGroupLayoutEntry {
+const fn texture(binding: u32) -> wgpu::BindGroupLayoutEntry {
     wgpu::BindGroupLayoutEntry {
         binding,
         visibility: wgpu::ShaderStages::COMPUTE,
         ty: wgpu::BindingType::Texture {
-            sample_type,
+            sample_type: wgpu::TextureSampleType::Uint,
             view_dimension: wgpu::TextureViewDimension::D2,
             multisampled: false,
         },

@@ -63,10 +63,9 @@ impl KeyLightEstimate {
 
     /// Estimates the illuminance of sampled objects that changed, and returns whether any did.
     fn follow(&mut self, objects: &[Aabb]) -> bool {
-        let count =
-            if self.local.is_empty() { 0 } else { MAX_OBJECTS.min(MAX_PAIRS / self.local.len()).max(1) };
-        let stride = if count == 0 { usize::MAX } else { objects.len().div_ceil(count).max(1) };
-        let sampled = objects.iter().step_by(stride).take(count);
+        let objects = if self.local.is_empty() { &[] } else { objects };
+        let count = MAX_OBJECTS.min(MAX_PAIRS / self.local.len().max(1)).max(1);
+        let sampled = objects.iter().step_by(objects.len().div_ceil(count).max(1));
         let mut is_changed = sampled.len() != self.samples.len();
         self.samples.resize(sampled.len(), (Aabb::EMPTY, 0.0));
         for (known, object) in self.samples.iter_mut().zip(sampled) {

@@ -12,7 +12,7 @@ const TILE_PX: u32 = 64;
 
 /// Builds a depth pyramid: levels in which each texel is the farthest depth of the texels below it, so that what lies behind a texel is
 /// hidden in its whole area (Greene, Kass and Miller, "Hierarchical Z-Buffer Visibility", 1993). It is a buffer, so that two compute
-/// passes build all levels.
+/// passes build all levels and threads can read different levels; [`DepthPyramid`](crate::post::DepthPyramid) is a texture to sample.
 pub struct OccluderPyramid {
     fine_levels: ComputeShader,
     coarse_levels: ComputeShader,

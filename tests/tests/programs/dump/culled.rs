@@ -8,7 +8,7 @@ use std::process::Command;
 #[test]
 fn with_times_a_dump_says_how_many_instances_each_culled_view_draws() {
     if let Err(reason) = Gpu::open(&AdapterChoice::Auto) {
-        return shadowgraph_tests::skip("dump-culled", &reason.to_string());
+        return shadowgraph_tests::skip("dump_culled", &reason.to_string());
     }
     let directory = tempfile::tempdir().unwrap();
     let file = directory.path().join("copies.glb");
