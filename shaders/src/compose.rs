@@ -9,6 +9,10 @@ use crate::folder;
 use crate::imports::Library;
 use crate::report::wgsl_error;
 use crate::source::{ENTRIES, ModuleSource, names};
+use std::sync::{Mutex, PoisonError};
+
+/// Composers without modules: creating one compiles many regular expressions, which takes longer than composing a file.
+static IDLE: Mutex<Vec<Composer>> = Mutex::new(Vec::new());
 
 /// Composes a built-in entry file, such as `"forward.wgsl"`, with the modules that it imports. `extra` adds
 /// modules, such as the shadow technique's, or replaces built-in ones with the same import path.
@@ -52,8 +56,21 @@ pub fn compose_source(entry: &ModuleSource, extra: &[ModuleSource]) -> Result<na
 
 fn compose_uncached(entry: &ModuleSource, extra: &[ModuleSource]) -> Result<naga::Module, Error> {
     let library = Library::new(extra)?;
+    let mut composer = IDLE.lock().unwrap_or_else(PoisonError::into_inner).pop().unwrap_or_default();
     // Capabilities are checked when a device compiles the module.
-    let mut composer = Composer::default().with_capabilities(Capabilities::all());
+    composer.capabilities = Capabilities::all();
+    let composed = compose_with(&mut composer, &library, entry);
+    composer.module_sets.clear();
+    composer.module_index.clear();
+    IDLE.lock().unwrap_or_else(PoisonError::into_inner).push(composer);
+    composed
+}
+
+fn compose_with(
+    composer: &mut Composer,
+    library: &Library<'_>,
+    entry: &ModuleSource,
+) -> Result<naga::Module, Error> {
     for path in library.needed_by(entry)? {
         let Some(module) = library.get(&path) else { continue };
         let added = composer.add_composable_module(ComposableModuleDescriptor {
@@ -62,7 +79,7 @@ fn compose_uncached(entry: &ModuleSource, extra: &[ModuleSource]) -> Result<naga
             ..Default::default()
         });
         if let Err(error) = added {
-            return Err(wgsl_error(&error, &composer, &library, entry));
+            return Err(wgsl_error(&error, composer, library, entry));
         }
     }
     let composed = composer.make_naga_module(NagaModuleDescriptor {
@@ -70,5 +87,5 @@ fn compose_uncached(entry: &ModuleSource, extra: &[ModuleSource]) -> Result<naga
         file_path: &entry.file,
         ..Default::default()
     });
-    composed.map_err(|error| wgsl_error(&error, &composer, &library, entry))
+    composed.map_err(|error| wgsl_error(&error, composer, library, entry))
 }

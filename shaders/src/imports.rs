@@ -1,6 +1,7 @@
 //! Finds the modules that a file imports, and the order in which they must be added.
 
 use std::collections::BTreeMap;
+use std::sync::OnceLock;
 
 use naga_oil::compose::{
     comment_strip_iter::CommentReplaceExt, get_preprocessor_data, parse_imports::parse_imports,
@@ -22,9 +23,9 @@ struct Import {
 impl<'a> Library<'a> {
     /// Creates the library of the built-in modules and `extra`, which can replace built-in ones.
     pub(crate) fn new(extra: &'a [ModuleSource]) -> Result<Self, Error> {
-        let mut modules = BTreeMap::new();
-        for module in MODULES {
-            modules.insert(import_path(module)?, module);
+        let mut modules: BTreeMap<String, &ModuleSource> = BTreeMap::new();
+        for (path, module) in built_in()? {
+            modules.insert(path.clone(), module);
         }
         let mut passed: BTreeMap<String, &ModuleSource> = BTreeMap::new();
         for module in extra {
@@ -107,6 +108,16 @@ impl<'a> Library<'a> {
         similar.truncate(3);
         Error::UnknownImport { similar: similar.join(", "), file, line, path }
     }
+}
+
+/// Returns the built-in modules with their import paths.
+fn built_in() -> Result<&'static [(String, &'static ModuleSource)], Error> {
+    static BUILT_IN: OnceLock<Vec<(String, &ModuleSource)>> = OnceLock::new();
+    if let Some(modules) = BUILT_IN.get() {
+        return Ok(modules);
+    }
+    let modules = MODULES.iter().map(|module| Ok((import_path(module)?, module))).collect::<Result<_, Error>>()?;
+    Ok(BUILT_IN.get_or_init(|| modules))
 }
 
 /// Returns the path of the line `#define_import_path`.

@@ -7,6 +7,7 @@ use super::args::BenchArgs;
 use super::commands::{self, Input};
 use super::console;
 use super::failure::Failure;
+use super::first_image::first_image;
 use super::fly::fly;
 use super::progress::Progress;
 use super::report::{self, COLUMNS};
@@ -29,6 +30,10 @@ pub(crate) fn bench(args: &BenchArgs, registry: &Registry) -> Result<(), Failure
     let view = commands::tracked(&commands::view_options(&input)?, &input.options, input.options.time.0)?;
     if cfg!(debug_assertions) {
         console::warning("debug build: measure with `cargo run --release`");
+    }
+    if args.first_image {
+        console::print(&heading(args, &input))?;
+        return console::print(&first_image(input, &view)?);
     }
     let noop = Gpu::noop()?;
     let gpu = match args.draw.names_adapter() {

@@ -10,6 +10,7 @@ mod commands;
 mod console;
 mod dump;
 mod failure;
+mod first_image;
 mod fly;
 mod frame_files;
 mod measure;

@@ -166,16 +166,19 @@ pub(crate) struct BenchArgs {
     /// frames
     #[arg(long, conflicts_with_all = ["moving", "whole_frame", "shaders"])]
     pub(crate) ablate: bool,
+    /// Measure the time from the loaded scene to its first image instead, on the GPU of --adapter
+    #[arg(long, conflicts_with_all = ["moving", "whole_frame", "ablate"])]
+    pub(crate) first_image: bool,
     /// Measure frames of a scene of 10,000 boxes instead, of which these numbers move in each frame, such as 0,1,100,10000
     #[arg(long, value_name = "N,...", value_delimiter = ',', conflicts_with_all = ["scene", "procedural"])]
     #[arg(value_parser = clap::value_parser!(u32).range(0..=10_000))]
     pub(crate) moving: Vec<u32>,
     /// Measure the CPU time of frames instead with a camera that moves by 5 cm in each
-    #[arg(long, conflicts_with_all = ["moving", "whole_frame", "ablate"])]
+    #[arg(long, conflicts_with_all = ["moving", "whole_frame", "ablate", "first_image"])]
     pub(crate) fly: bool,
     /// Measure the CPU time of frames of these numbers of boxes instead, culled by the CPU and by the GPU, with a camera that moves
     #[arg(long, value_name = "N,...", value_delimiter = ',')]
-    #[arg(conflicts_with_all = ["scene", "procedural", "moving", "whole_frame", "ablate", "fly"])]
+    #[arg(conflicts_with_all = ["scene", "procedural", "moving", "whole_frame", "ablate", "first_image", "fly"])]
     #[arg(value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
     pub(crate) boxes: Vec<u32>,
 }
