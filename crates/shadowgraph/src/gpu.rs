@@ -128,6 +128,17 @@ impl Gpu {
             (None, Err(error)) => Err(error),
         }
     }
+
+    /// Submits what `record` records.
+    pub(crate) fn submit<T>(
+        &self,
+        record: impl FnOnce(&mut wgpu::CommandEncoder) -> Result<T, Error>,
+    ) -> Result<T, Error> {
+        let mut encoder = self.device.create_command_encoder(&Default::default());
+        let recorded = record(&mut encoder)?;
+        self.queue.submit([encoder.finish()]);
+        Ok(recorded)
+    }
 }
 
 /// Joins the lines of wgpu's message.

@@ -1,12 +1,10 @@
-//! Recording step by step, so that a validation error of wgpu names its pass.
+//! Recording with a check of each step, so that a validation error of wgpu names its pass.
 
 use super::Executed;
-use super::record::prepare;
+use super::stepwise::record_steps;
 use crate::compiled::Compiled;
-use crate::context::Body;
 use crate::error::Error;
 use crate::graph::Graph;
-use crate::handle::PassId;
 use crate::plan::Plan;
 use std::sync::Arc;
 
@@ -63,40 +61,15 @@ impl Compiled<'_> {
 }
 
 fn record(
-    mut compiled: Compiled<'_>,
+    compiled: Compiled<'_>,
     graph: &mut Graph,
     device: &wgpu::Device,
     queue: &wgpu::Queue,
 ) -> Result<Executed, Error> {
-    let pool = &mut graph.device;
-    let encoder = || device.create_command_encoder(&Default::default());
-    let (mut first, mut last) = (encoder(), encoder());
-    let mut bodies = std::mem::take(&mut compiled.frame.work.bodies);
-    let prepared = prepare(&compiled, pool, device, &mut first, Some(&last))?;
-    let recording = prepared.recording(&compiled, pool, device, None);
-    let mut buffers = vec![first.finish()];
-    for (index, step) in compiled.plan.steps().enumerate() {
-        let scope = device.push_error_scope(wgpu::ErrorFilter::Validation);
-        let mut encoder = encoder();
-        let take = |pass: PassId| std::mem::replace(&mut bodies[pass.index()], Body::None);
-        let recorded = recording.steps(index..index + 1, &mut encoder, take);
-        buffers.push(encoder.finish());
-        let validation_error = pollster::block_on(scope.pop());
-        recorded?;
-        if let Some(error) = validation_error {
-            return Err(in_passes(&compiled.plan, step.passes, &error));
-        }
-    }
-    let read_backs = recording.read_backs(&compiled.frame.work.read_backs, &mut last)?;
-    compiled.frame.work.bodies = bodies;
-    buffers.push(last.finish());
+    let mut buffers = Vec::new();
+    let executed = record_steps(compiled, &mut graph.device, device, Some(wgpu::ErrorFilter::Validation), |buffer| {
+        buffers.push(buffer);
+    })?;
     queue.submit(buffers);
-    Ok(prepared.finish(compiled, pool, read_backs))
-}
-
-fn in_passes(plan: &Plan, passes: &[PassId], error: &wgpu::Error) -> Error {
-    let names: Vec<String> = passes.iter().map(|&pass| format!("`{}`", plan.pass_path(pass))).collect();
-    let message = error.to_string();
-    let lines: Vec<&str> = message.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
-    Error::Validation { passes: names.join(", "), message: lines.join("; ") }
+    Ok(executed)
 }

@@ -10,6 +10,7 @@ mod read_back;
 mod record;
 mod render;
 mod shader_pass;
+mod stepwise;
 mod threads;
 
 #[cfg(test)]

@@ -40,10 +40,12 @@ impl Renderer {
         self.draw(gpu, options)?;
         let frame = self.draw_timed(gpu, options, Some(&mut Timer::new()))?;
         let mut capture: Option<PendingCapture> = None;
-        let (_, shadow_buffers) = self.draw_with(gpu, options, |compiled, graph, encoder| {
-            let (executed, taken) = compiled.execute_captured(graph, &gpu.device, encoder)?;
-            capture = Some(taken);
-            Ok(executed)
+        let (_, shadow_buffers) = self.draw_with(gpu, options, |compiled, graph| {
+            gpu.submit(|encoder| {
+                let (executed, taken) = compiled.execute_captured(graph, &gpu.device, encoder)?;
+                capture = Some(taken);
+                Ok(executed)
+            })
         })?;
         let captured = match capture {
             Some(capture) => capture.wait(&gpu.device)?,

@@ -31,11 +31,14 @@ impl Renderer {
         options: &ViewOptions,
         mut timer: Option<&mut Timer>,
     ) -> Result<RenderedFrame, Error> {
-        let (mut frame, _) = self.draw_with(gpu, options, |compiled, graph, encoder| {
-            Ok(match timer.as_deref_mut() {
-                Some(timer) => compiled.execute_timed(graph, &gpu.device, encoder, timer)?,
-                None => compiled.execute(graph, &gpu.device, encoder)?,
-            })
+        let is_first = self.frames == 0;
+        let (mut frame, _) = self.draw_with(gpu, options, |compiled, graph| match timer.as_deref_mut() {
+            // Its pipelines are created as its passes are recorded.
+            None if is_first => Ok(compiled.execute_submitted(graph, &gpu.device, &gpu.queue)?),
+            None => gpu.submit(|encoder| Ok(compiled.execute(graph, &gpu.device, encoder)?)),
+            Some(timer) => {
+                gpu.submit(|encoder| Ok(compiled.execute_timed(graph, &gpu.device, encoder, timer)?))
+            }
         })?;
         if let Some(timer) = timer {
             frame.times = timer.read(&gpu.device, &gpu.queue)?;
@@ -43,12 +46,12 @@ impl Renderer {
         Ok(frame)
     }
 
-    /// Draws a view whose frame `execute` executes, and returns it with the GPU data of its shadow maps.
+    /// Draws a view whose frame `execute` executes and submits, and returns it with the GPU data of its shadow maps.
     pub(crate) fn draw_with(
         &mut self,
         gpu: &Gpu,
         options: &ViewOptions,
-        execute: impl FnOnce(Compiled<'_>, &mut Graph, &mut wgpu::CommandEncoder) -> Result<Executed, Error>,
+        execute: impl FnOnce(Compiled<'_>, &mut Graph) -> Result<Executed, Error>,
     ) -> Result<(RenderedFrame, Option<[Buffer; 2]>), Error> {
         let [width, height] = options.size_px;
         let limit = gpu.device.limits().max_texture_dimension_2d;
@@ -62,15 +65,13 @@ impl Renderer {
             let output = self.add(&mut frame, &view)?;
             let request = frame.read_back_texture(&output.image, Subresource::FULL);
             let counts = read_counts(&mut frame);
-            let mut encoder = gpu.device.create_command_encoder(&Default::default());
             let mut graph = self.graph();
             let compiled = graph.compile(frame)?;
-            let mut executed = execute(compiled, &mut graph, &mut encoder)?;
+            let mut executed = execute(compiled, &mut graph)?;
             drop(graph);
             let texels = executed.read_back(request).ok_or_else(read_back_error)?;
             let counts: Vec<_> =
                 counts.into_iter().map(|(views, request)| (views, executed.read_back(request))).collect();
-            gpu.queue.submit([encoder.finish()]);
             let mut culled = Vec::new();
             for (views, bytes) in counts {
                 let bytes = bytes.ok_or_else(read_back_error)?.wait(&gpu.device)?;
@@ -109,11 +110,9 @@ impl Renderer {
                 let output = frame.node(name, |frame| self.add(frame, view))?;
                 requests.push(frame.read_back_texture(&output.image, Subresource::FULL));
             }
-            let mut encoder = gpu.device.create_command_encoder(&Default::default());
-            let mut executed = self.execute(frame, gpu, &mut encoder, None)?;
+            let mut executed = gpu.submit(|encoder| self.execute(frame, gpu, encoder, None))?;
             let texels: Option<Vec<_>> =
                 requests.into_iter().map(|request| executed.read_back(request)).collect();
-            gpu.queue.submit([encoder.finish()]);
             let texels = texels.ok_or_else(read_back_error)?;
             let images = views.iter().zip(texels).map(|(options, texels)| {
                 Ok(RenderedImage { size_px: options.size_px, rgba8: texels.wait(&gpu.device)? })

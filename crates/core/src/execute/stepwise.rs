@@ -1,0 +1,74 @@
+//! Recording each step into a separate command buffer.
+
+use super::Executed;
+use super::record::prepare;
+use crate::compiled::Compiled;
+use crate::context::Body;
+use crate::error::Error;
+use crate::graph::Graph;
+use crate::handle::PassId;
+use crate::plan::Plan;
+use crate::pool::Pool;
+
+impl Compiled<'_> {
+    /// Records the frame like [`execute`](Self::execute), and submits each step as soon as it is recorded.
+    ///
+    /// The GPU begins while later steps are recorded. It is meant for the first frame of a program: drivers that compile shaders
+    /// when they are first drawn with compile while the pipelines of later passes are created. It costs a submission for each step.
+    ///
+    /// # Errors
+    /// As `execute`. The steps before the failed one are submitted then.
+    pub fn execute_submitted(
+        self,
+        graph: &mut Graph,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+    ) -> Result<Executed, Error> {
+        let pool = &mut graph.device;
+        let submit = |buffer| {
+            queue.submit([buffer]);
+        };
+        record_steps(self, pool, device, None, submit).map_err(|error| pool.classify_error(device, error))
+    }
+}
+
+/// Records the frame and passes the command buffers on in order: that of the uploads, one for each step and that of the read-backs.
+/// Stops at the first step with an error that `filter` catches, which names its passes.
+pub(super) fn record_steps(
+    mut compiled: Compiled<'_>,
+    pool: &mut Pool,
+    device: &wgpu::Device,
+    filter: Option<wgpu::ErrorFilter>,
+    mut pass_on: impl FnMut(wgpu::CommandBuffer),
+) -> Result<Executed, Error> {
+    let encoder = || device.create_command_encoder(&Default::default());
+    let (mut first, mut last) = (encoder(), encoder());
+    let mut bodies = std::mem::take(&mut compiled.frame.work.bodies);
+    let prepared = prepare(&compiled, pool, device, &mut first, Some(&last))?;
+    let recording = prepared.recording(&compiled, pool, device, None);
+    pass_on(first.finish());
+    for (index, step) in compiled.plan.steps().enumerate() {
+        let scope = filter.map(|filter| device.push_error_scope(filter));
+        let mut encoder = encoder();
+        let take = |pass: PassId| std::mem::replace(&mut bodies[pass.index()], Body::None);
+        let recorded = recording.steps(index..index + 1, &mut encoder, take);
+        let buffer = encoder.finish();
+        let caught = scope.and_then(|scope| pollster::block_on(scope.pop()));
+        recorded?;
+        if let Some(error) = caught {
+            return Err(in_passes(&compiled.plan, step.passes, &error));
+        }
+        pass_on(buffer);
+    }
+    let read_backs = recording.read_backs(&compiled.frame.work.read_backs, &mut last)?;
+    compiled.frame.work.bodies = bodies;
+    pass_on(last.finish());
+    Ok(prepared.finish(compiled, pool, read_backs))
+}
+
+fn in_passes(plan: &Plan, passes: &[PassId], error: &wgpu::Error) -> Error {
+    let names: Vec<String> = passes.iter().map(|&pass| format!("`{}`", plan.pass_path(pass))).collect();
+    let message = error.to_string();
+    let lines: Vec<&str> = message.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
+    Error::Validation { passes: names.join(", "), message: lines.join("; ") }
+}
