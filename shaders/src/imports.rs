@@ -116,7 +116,8 @@ fn built_in() -> Result<&'static [(String, &'static ModuleSource)], Error> {
     if let Some(modules) = BUILT_IN.get() {
         return Ok(modules);
     }
-    let modules = MODULES.iter().map(|module| Ok((import_path(module)?, module))).collect::<Result<_, Error>>()?;
+    let modules =
+        MODULES.iter().map(|module| Ok((import_path(module)?, module))).collect::<Result<_, Error>>()?;
     Ok(BUILT_IN.get_or_init(|| modules))
 }
 

@@ -1,6 +1,6 @@
 // The view depth of pixels, where the ground counts as a surface.
 #define_import_path shadowgraph::ground_depth
-#import shadowgraph::view::{view_depth_from_depth, view_depth_of, view_ray}
+#import shadowgraph::view::{view, view_depth_from_depth}
 
 // A horizontal plane, seen from above.
 struct GroundPlane {
@@ -10,7 +10,7 @@ struct GroundPlane {
     exists: u32,
 }
 
-// Beyond, the ground counts as infinitely far, in multiples of the camera's height.
+// The largest view depth of the ground, in multiples of the camera's height; beyond, it counts as infinitely far.
 const FARTHEST: f32 = 1000.0;
 
 // The view depth of a pixel's surface, or of the ground where nothing is drawn, metres; 0 for neither.
@@ -21,10 +21,13 @@ fn surface_view_depth(depth: f32, pixel: vec2f, ground: GroundPlane) -> f32 {
     if ground.exists == 0u {
         return 0.0;
     }
-    let ray = view_ray(pixel);
-    let above = ray.start.y - ground.height;
-    if above <= 0.0 || ray.direction.y > -1.0 / FARTHEST {
-        return 0.0;
-    }
-    return view_depth_of(ray.start - ray.direction * (above / ray.direction.y));
+    // Heights: only they matter. Across is the step from the middle of the image to the pixel, at 1 m in front of the camera.
+    let offset = pixel - 0.5 * view.size_px;
+    let across = view.pixel_right.y * offset.x - view.pixel_up.y * offset.y;
+    let forward = -view.view_from_world[1].z;
+    let is_orthographic = view.orthographic == 1u;
+    let above = view.position.y + select(0.0, across, is_orthographic) - ground.height;
+    let fall = -forward - select(across, 0.0, is_orthographic);
+    let is_seen = above > 0.0 && fall > 1.0 / FARTHEST;
+    return select(0.0, above / fall, is_seen);
 }

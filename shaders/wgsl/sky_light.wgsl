@@ -1,6 +1,6 @@
 // The light of a sky and of the ground below it.
 #define_import_path shadowgraph::environment
-#import shadowgraph::view::{view, view_depth_of, view_ray, to_neighbour}
+#import shadowgraph::view::{view, ViewRay, view_depth_of, view_ray, to_neighbour}
 #import shadowgraph::lights::{light_at, light_count}
 #import shadowgraph::lighting::{Surface, arriving_light, environment_reflectance}
 #import shadowgraph::receiver::{Receiver, RECEIVER_OFF_SCREEN}
@@ -49,18 +49,34 @@ const HAS_BACKGROUND: bool = true;
 
 @group(0) @binding(ENVIRONMENT) var<uniform> sky: Sky;
 
-// The radiance of the sky without the sun's disc, for a direction with y not below 0.
-fn dome_radiance(direction: vec3f) -> vec3f {
-    let cos_theta = max(direction.y, 0.0);
-    let cos_gamma = clamp(dot(direction, sky.to_sun), -1.0, 1.0);
-    let gamma = acos(cos_gamma);
+// The sky in all directions.
+struct Dome {
+    to_sun: vec3f,
+    radiance: vec3f,
+    distribution: array<vec3f, 9>,
+    // Irradiance of the ground over π, without lights.
+    ground_irradiance: vec3f,
+}
+
+fn sky_dome() -> Dome {
     let d = &sky.distribution;
-    let h = (*d)[8].xyz;
+    let distribution = array(
+        (*d)[0].xyz, (*d)[1].xyz, (*d)[2].xyz, (*d)[3].xyz, (*d)[4].xyz, (*d)[5].xyz, (*d)[6].xyz, (*d)[7].xyz, (*d)[8].xyz,
+    );
+    return Dome(sky.to_sun, sky.radiance, distribution, irradiance(vec3f(0.0, 1.0, 0.0)));
+}
+
+// The radiance of the sky without the sun's disc, for a direction with y not below 0.
+fn dome_radiance(dome: Dome, direction: vec3f) -> vec3f {
+    let cos_theta = max(direction.y, 0.0);
+    let cos_gamma = clamp(dot(direction, dome.to_sun), -1.0, 1.0);
+    let gamma = acos(cos_gamma);
+    let d = dome.distribution;
+    let h = d[8];
     let mie = (1.0 + cos_gamma * cos_gamma) / pow(max(1.0 + h * h - 2.0 * h * cos_gamma, vec3f(1e-4)), vec3f(1.5));
-    let by_height = 1.0 + (*d)[0].xyz * exp((*d)[1].xyz / (cos_theta + 0.01));
-    let by_angle = (*d)[2].xyz + (*d)[3].xyz * exp((*d)[4].xyz * gamma) + (*d)[5].xyz * (cos_gamma * cos_gamma)
-        + (*d)[6].xyz * mie + (*d)[7].xyz * sqrt(cos_theta);
-    return max(by_height * by_angle * sky.radiance, vec3f(0.0));
+    let by_height = 1.0 + d[0] * exp(d[1] / (cos_theta + 0.01));
+    let by_angle = d[2] + d[3] * exp(d[4] * gamma) + d[5] * (cos_gamma * cos_gamma) + d[6] * mie + d[7] * sqrt(cos_theta);
+    return max(by_height * by_angle * dome.radiance, vec3f(0.0));
 }
 
 // The share of the ground in a direction below the horizon; the rest is the sky at the horizon.
@@ -86,7 +102,7 @@ fn environment_light(surface: Surface) -> vec3f {
     let direction = reflect(-surface.to_camera, surface.normal);
     // Rougher surfaces reflect a wider part of the environment.
     let width = 0.02 + 0.5 * surface.roughness;
-    let above = dome_radiance(normalize(vec3f(direction.x, max(direction.y, 0.0), direction.z) + vec3f(0.0, 1e-6, 0.0)));
+    let above = dome_radiance(sky_dome(), normalize(vec3f(direction.x, max(direction.y, 0.0), direction.z) + vec3f(0.0, 1e-6, 0.0)));
     let mirrored = mix(sky.ground, above, smoothstep(-width, width, direction.y));
     let reflected_light = mix(mirrored, irradiance(direction), smoothstep(0.0, 0.7, surface.roughness));
     let specular = environment_reflectance(surface.specular_color, surface.roughness, surface.n_dot_v);
@@ -94,7 +110,7 @@ fn environment_light(surface: Surface) -> vec3f {
 }
 
 // The light that the plane reflects at a point, and what it would reflect without shadows and occlusion.
-fn ground_light(position: vec3f, pixel: vec2f) -> array<vec3f, 2> {
+fn ground_light(position: vec3f, pixel: vec2f, dome: Dome) -> array<vec3f, 2> {
     let up = vec3f(0.0, 1.0, 0.0);
     let depth = view_depth_of(position);
     let receiver = Receiver(
@@ -107,7 +123,7 @@ fn ground_light(position: vec3f, pixel: vec2f) -> array<vec3f, 2> {
         to_neighbour(position, up, depth, 0),
         -to_neighbour(position, up, depth, 1),
     );
-    let from_sky = irradiance(up) * PI;
+    let from_sky = dome.ground_irradiance * PI;
     var shadowed = from_sky * screen_occlusion(pixel, false);
     var full = from_sky;
     var i = next_light(0u, pixel, depth);
@@ -128,7 +144,11 @@ fn ground_light(position: vec3f, pixel: vec2f) -> array<vec3f, 2> {
 }
 
 fn background_light(pixel: vec2f) -> vec4f {
-    let ray = view_ray(pixel);
+    return background_along(view_ray(pixel), pixel, sky_dome());
+}
+
+// The background of a pixel with this ray, exposure applied.
+fn background_along(ray: ViewRay, pixel: vec2f, dome: Dome) -> vec4f {
     let direction = ray.direction;
     let shows_sky = sky.backdrop == BACKDROP_SKY;
     var ground = sky.ground;
@@ -136,7 +156,7 @@ fn background_light(pixel: vec2f) -> vec4f {
     let distance = (sky.ground_height - ray.start.y) / direction.y;
     let share = ground_share(direction.y);
     if sky.has_ground == 1u && direction.y < 0.0 && distance > 0.0 {
-        let light = ground_light(ray.start + direction * distance, pixel);
+        let light = ground_light(ray.start + direction * distance, pixel, dome);
         ground = light[0];
         let luminance = vec3f(0.2126, 0.7152, 0.0722);
         darkened = share * (1.0 - dot(light[0], luminance) / max(dot(light[1], luminance), 1e-9));
@@ -144,9 +164,9 @@ fn background_light(pixel: vec2f) -> vec4f {
     if !shows_sky {
         return vec4f(0.0, 0.0, 0.0, saturate((darkened - UNOCCLUDED) / (1.0 - UNOCCLUDED)));
     }
-    var color = dome_radiance(select(at_horizon(direction), direction, direction.y > 0.0));
+    var color = dome_radiance(dome, select(at_horizon(direction), direction, direction.y > 0.0));
     if direction.y > 0.0 {
-        let disc = smoothstep(sky.cos_disc, mix(sky.cos_disc, 1.0, 0.2), dot(direction, sky.to_sun));
+        let disc = smoothstep(sky.cos_disc, mix(sky.cos_disc, 1.0, 0.2), dot(direction, dome.to_sun));
         color += sky.disc * disc;
     } else {
         color = mix(color, ground, share);

@@ -65,11 +65,15 @@ struct ViewRay {
 
 // The ray through a point of the image, in pixels.
 fn view_ray(pixel: vec2f) -> ViewRay {
-    let ndc = pixel / view.size_px * vec2f(2.0, -2.0) + vec2f(-1.0, 1.0);
+    let points = view_ray_points(pixel / view.size_px * vec2f(2.0, -2.0) + vec2f(-1.0, 1.0));
+    return ViewRay(points[0], normalize(points[1] - points[0]));
+}
+
+// Two points of the ray through a point of the image, in clip space: the first on the near plane. They are linear over the image.
+fn view_ray_points(ndc: vec2f) -> array<vec3f, 2> {
     let near = view.world_from_clip * vec4f(ndc, 1.0, 1.0);
     let far = view.world_from_clip * vec4f(ndc, 0.5, 1.0);
-    let start = near.xyz / near.w;
-    return ViewRay(start, normalize(far.xyz / far.w - start));
+    return array(near.xyz / near.w, far.xyz / far.w);
 }
 
 // The direction to the camera, unit length, from a point relative to the camera.

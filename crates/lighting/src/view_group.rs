@@ -65,7 +65,7 @@ impl OptionalBindings {
             types.push((fragment, texture(wgpu::TextureSampleType::Float { filterable: false })));
         }
         if self.sky {
-            types.push((fragment, uniform));
+            types.push((both, uniform));
         }
         let entry =
             |(binding, (visibility, ty))| wgpu::BindGroupLayoutEntry { binding, visibility, ty, count: None };

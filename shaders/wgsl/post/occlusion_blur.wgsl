@@ -29,13 +29,16 @@ fn fs_blur(@builtin(position) position: vec4f) -> @location(0) vec4f {
     }
     let slopes = vec2f(slope(texel, vec2i(1, 0), center), slope(texel, vec2i(0, 1), center));
     var sum = vec2f(0.0);
-    for (var y = -2; y < 2; y++) {
-        for (var x = -2; x < 2; x++) {
-            let other = clamp(texel + vec2i(x, y), vec2i(0), vec2i(view.size_px) - 1);
-            let depth = linear_depth(other);
-            let difference = abs(depth - center - dot(slopes, vec2f(other - texel))) / center;
-            let weight = select(0.0, saturate(1.5 - difference * 30.0) + 1e-3, depth > 0.0);
-            sum += vec2f(textureLoad(noisy, other, 0).r, 1.0) * weight;
+    var i = 0;
+    loop {
+        let other = clamp(texel + vec2i(i & 3, i >> 2u) - 2, vec2i(0), vec2i(view.size_px) - 1);
+        let depth = linear_depth(other);
+        let difference = abs(depth - center - dot(slopes, vec2f(other - texel))) / center;
+        let weight = select(0.0, saturate(1.5 - difference * 30.0) + 1e-3, depth > 0.0);
+        sum += vec2f(textureLoad(noisy, other, 0).r, 1.0) * weight;
+        i++;
+        if i >= 16 {
+            break;
         }
     }
     return vec4f(sum.x / max(sum.y, 1e-3));

@@ -36,18 +36,23 @@ fn compared(map: u32, plane: TentPlane, row: Row, across: f32, rise: f32) -> f32
     return textureSampleCompareLevel(atlas_map, shadow_sampler, uv, depth);
 }
 
-// Without a loop: the weights of an axis are then registers, not an indexed array in memory.
+// A component. An index that is not constant would move the vector to memory.
+fn component(v: vec4f, i: u32) -> f32 {
+    let pair = select(v.xy, v.zw, i >= 2u);
+    return select(pair.x, pair.y, (i & 1u) == 1u);
+}
+
 fn row_visibility(map: u32, plane: TentPlane, taps: u32, row: Row) -> f32 {
     let axis = row.x_axis;
-    var visibility = axis.weight.x * compared(map, plane, row, axis.offset.x, axis.rise.x);
-    if taps > 1u {
-        visibility += axis.weight.y * compared(map, plane, row, axis.offset.y, axis.rise.y);
-    }
-    if taps > 2u {
-        visibility += axis.weight.z * compared(map, plane, row, axis.offset.z, axis.rise.z);
-    }
-    if taps > 3u {
-        visibility += axis.weight.w * compared(map, plane, row, axis.offset.w, axis.rise.w);
+    var visibility = 0.0;
+    var tap = 0u;
+    loop {
+        visibility += component(axis.weight, tap)
+            * compared(map, plane, row, component(axis.offset, tap), component(axis.rise, tap));
+        tap++;
+        if tap == taps {
+            break;
+        }
     }
     return visibility;
 }
@@ -66,22 +71,15 @@ fn filtered(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> f32 {
     let s = at - base;
     let x_axis = tent_axis(taps, half, s.x, plane.slope.x);
     let y_axis = tent_axis(taps, half, s.y, plane.slope.y);
-    var row = Row(x_axis, base, y_axis.offset.x, y_axis.rise.x, s);
-    var visibility = y_axis.weight.x * row_visibility(light.map, plane, taps, row);
-    if taps > 1u {
-        row.offset = y_axis.offset.y;
-        row.rise = y_axis.rise.y;
-        visibility += y_axis.weight.y * row_visibility(light.map, plane, taps, row);
-    }
-    if taps > 2u {
-        row.offset = y_axis.offset.z;
-        row.rise = y_axis.rise.z;
-        visibility += y_axis.weight.z * row_visibility(light.map, plane, taps, row);
-    }
-    if taps > 3u {
-        row.offset = y_axis.offset.w;
-        row.rise = y_axis.rise.w;
-        visibility += y_axis.weight.w * row_visibility(light.map, plane, taps, row);
+    var visibility = 0.0;
+    var tap = 0u;
+    loop {
+        let row = Row(x_axis, base, component(y_axis.offset, tap), component(y_axis.rise, tap), s);
+        visibility += component(y_axis.weight, tap) * row_visibility(light.map, plane, taps, row);
+        tap++;
+        if tap == taps {
+            break;
+        }
     }
     return visibility;
 }

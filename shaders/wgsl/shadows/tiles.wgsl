@@ -52,18 +52,17 @@ fn select_view(light: ShadowLight, receiver: Receiver, first: u32) -> u32 {
     return max(select(chosen, light.view_count - 1u, is_before), first);
 }
 
-// The lookup of a point in the first of at most four cascades that covers it.
+// The lookup of a point in the first cascade that covers it; in the last one where none does.
 fn find_cascade(light: ShadowLight, receiver: Receiver) -> Lookup {
     let incidence = incidence_in(light_view(light, 0u), light, receiver);
-    // Without a loop, which would look each cascade up for as long as any pixel needs it. The last one is looked up where none covers the
-    // point.
-    let covering = vec3<bool>(
-        covers_receiver(light_view(light, 0u), light, receiver, incidence),
-        covers_receiver(light_view(light, 1u), light, receiver, incidence),
-        covers_receiver(light_view(light, 2u), light, receiver, incidence),
-    );
-    let index = select(select(select(3u, 2u, covering.z), 1u, covering.y), 0u, covering.x);
-    let chosen = min(index, light.view_count - 1u);
+    var chosen = 0u;
+    loop {
+        let covered = covers_receiver(light_view(light, chosen), light, receiver, incidence);
+        if covered || chosen + 1u >= light.view_count {
+            break;
+        }
+        chosen++;
+    }
     var lookup = look_up(light_view(light, chosen), light, receiver, incidence);
     lookup.view = chosen;
     return lookup;
