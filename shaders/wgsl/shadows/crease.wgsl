@@ -33,12 +33,17 @@ fn is_behind_crease(light: ShadowLight, lookup: Lookup, radius_texels: f32) -> b
     let at = lookup.uv * map_size(light.map);
     let side = select(vec2f(1.0), vec2f(-1.0), plane.slope > vec2f(0.0));
     let nearest = floor(at + 0.5 * side);
-    let heights = vec4f(
-        height_in(light.map, nearest, plane, at),
-        height_in(light.map, nearest + vec2f(side.x, 0.0), plane, at),
-        height_in(light.map, nearest + vec2f(0.0, side.y), plane, at),
-        height_in(light.map, nearest + side, plane, at),
-    );
+    var heights = vec4f(0.0);
+    var i = 0u;
+    loop {
+        let step = vec2f(f32(i & 1u), f32(i >> 1u));
+        let height = height_in(light.map, nearest + step * side, plane, at);
+        heights = select(heights, vec4f(height), vec4u(0u, 1u, 2u, 3u) == vec4u(i));
+        i++;
+        if i == 4u {
+            break;
+        }
+    }
     if any(heights < vec4f(plane.error)) {
         return false;
     }
@@ -54,7 +59,7 @@ fn is_behind_crease(light: ShadowLight, lookup: Lookup, radius_texels: f32) -> b
     }
     // The surface begins at the crease: texels before it show the surface, those past it do not.
     var is_crease = true;
-    var i = 1u;
+    i = 1u;
     loop {
         let steps = select(vec2f(f32(i & 1u), f32(i >> 1u)), vec2f(2.0), i == 4u);
         let texel = nearest - steps * side;
