@@ -54,8 +54,10 @@ pub struct LitPipelines {
 }
 
 impl LitPipelines {
-    /// Returns the pipeline for draws with a key.
+    /// Returns the pipeline for draws with a key. Masked draws have that of opaque ones: the material says where there are holes.
     pub fn get(&self, key: PipelineKey) -> DrawPipeline<'_> {
+        let alpha = if key.alpha == AlphaKey::Mask { AlphaKey::Opaque } else { key.alpha };
+        let key = PipelineKey { alpha, ..key };
         let create = || self.builder.pipeline(&self.shader, &self.layout, self.key, key);
         DrawPipeline { pipeline: self.pipelines[key.index()].get_or_init(create), material: MaterialUse::All }
     }

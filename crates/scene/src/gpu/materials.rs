@@ -109,7 +109,9 @@ fn uniform_size() -> Option<NonZeroU64> {
 pub(super) struct Materials {
     layout: wgpu::BindGroupLayout,
     textures: Textures,
+    /// For values, and for colours.
     white: Arc<wgpu::TextureView>,
+    white_color: Arc<wgpu::TextureView>,
     flat: Arc<wgpu::TextureView>,
     /// Buffers of [`BLOCK`] uniforms each.
     uniforms: Vec<wgpu::Buffer>,
@@ -147,8 +149,9 @@ impl Materials {
         let mut textures = Textures::new(device, queue);
         Self {
             layout: layouts.material.clone(),
-            white: textures.single("white", [255; 4]),
-            flat: textures.single("flat normal", [128, 128, 255, 255]),
+            white: textures.plain("white", [255; 4], Encoding::Linear),
+            white_color: textures.plain("white", [255; 4], Encoding::Srgb),
+            flat: textures.plain("flat normal", [128, 128, 255, 255], Encoding::Linear),
             textures,
             uniforms: Vec::new(),
             writes: WriteBatch::default(),
@@ -262,7 +265,12 @@ impl Materials {
         self.features = self.features.union(MaterialFeatures::new(material));
         let (mut views, mut samplers) = (Vec::with_capacity(TEXTURES), Vec::with_capacity(TEXTURES));
         let mut images = Vec::new();
-        for (slot, (reference, reading)) in slots(material).into_iter().enumerate() {
+        let slots = slots(material);
+        let sampler = slots
+            .iter()
+            .find_map(|(reference, _)| *reference)
+            .map_or_else(Sampler::default, |used| used.sampler);
+        for (slot, (reference, reading)) in slots.into_iter().enumerate() {
             views.push(match reference {
                 Some(TextureRef { image, .. }) => {
                     let view = self.textures.image(scene, image, reading)?;
@@ -270,10 +278,10 @@ impl Materials {
                     view
                 }
                 None if slot == 2 => self.flat.clone(),
+                None if reading.encoding == Encoding::Srgb => self.white_color.clone(),
                 None => self.white.clone(),
             });
-            samplers
-                .push(self.textures.sampler(reference.map_or_else(Sampler::default, |used| used.sampler)));
+            samplers.push(self.textures.sampler(reference.map_or(sampler, |used| used.sampler)));
         }
         let alpha = self.alpha(scene, material, &mut images)?;
         let (block, offset) = (number as usize / BLOCK, (number as usize % BLOCK) as u64 * STRIDE);

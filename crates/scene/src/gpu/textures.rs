@@ -78,10 +78,11 @@ impl Textures {
         self.textures.values().filter(|view| view.strong_count() > 0).count()
     }
 
-    /// Creates a texture of one pixel, for materials without an image.
-    pub(super) fn single(&mut self, name: &str, rgba: [u8; 4]) -> Arc<wgpu::TextureView> {
-        let image = Image::new(name, 1, 1, rgba.to_vec());
-        Arc::new(self.upload(&image, Reading { encoding: Encoding::Linear, cutoff: None }))
+    /// Creates a texture of one colour, for materials without an image. It has mip levels, as most images have: software drivers
+    /// compile shaders again for textures without.
+    pub(super) fn plain(&mut self, name: &str, rgba: [u8; 4], encoding: Encoding) -> Arc<wgpu::TextureView> {
+        let image = Image::new(name, 2, 2, rgba.repeat(4));
+        Arc::new(self.upload(&image, Reading { encoding, cutoff: None }))
     }
 
     /// Returns the sampler with these properties.
