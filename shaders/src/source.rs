@@ -66,7 +66,7 @@ pub const MASK_ONLY: ModuleSource = file!("shadows/mask.wgsl");
 pub const CLUSTERED: ModuleSource = file!("clustered.wgsl");
 
 /// The lights of a frame with few of them, as a uniform block; it replaces the built-in module that reads a storage buffer. Replace
-/// `ONLY_ONE: bool = false` if there is exactly one.
+/// `ONLY_SUN: bool = false` if there is exactly one, a directional one.
 pub const FEW_LIGHTS: ModuleSource = file!("few_lights.wgsl");
 
 /// Screen-space ambient occlusion for lit passes; it replaces the built-in module without occlusion. Replace `OCCLUSION` by the

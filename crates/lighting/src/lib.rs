@@ -56,7 +56,7 @@ pub use prepass::Prepass;
 pub use shader::fullscreen as fullscreen_shader;
 pub use sky::{Backdrop, SkyLight, SkySettings};
 pub use tonemap::{Tonemap, TonemapSettings};
-pub use uniforms::{GpuLight, GpuView, ViewBuffers, ViewUniforms};
+pub use uniforms::{GpuLight, GpuView, LightBinding, ViewBuffers, ViewUniforms};
 pub use velocity::Velocity;
 
 #[cfg(doctest)]

@@ -89,6 +89,28 @@ pub struct ViewUniforms {
     pub noise_frame: Option<u32>,
 }
 
+/// How shaders read the lights of a frame. They are compiled for it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub enum LightBinding {
+    /// A storage buffer with any number of lights.
+    #[default]
+    Storage,
+    /// A uniform block with at most 32 lights.
+    Uniform,
+    /// A uniform block with exactly one light, a directional one.
+    Sun,
+}
+
+impl LightBinding {
+    fn new(lights: &[GpuLight]) -> Self {
+        match lights {
+            [light] if light.kind == GpuLight::DIRECTIONAL => Self::Sun,
+            _ if lights.len() <= MAX_FEW_LIGHTS => Self::Uniform,
+            _ => Self::Storage,
+        }
+    }
+}
+
 /// The contents of bind group 0 of lit passes.
 #[derive(Clone, Debug)]
 pub struct ViewBuffers {
@@ -96,8 +118,8 @@ pub struct ViewBuffers {
     pub view: Buffer,
     /// [`GpuLight`]s, and zeros up to the size of a uniform block of few.
     pub lights: Buffer,
-    /// The number of lights.
-    pub light_count: usize,
+    /// How shaders read the lights.
+    pub light_binding: LightBinding,
     /// The lights of each cluster, if they were computed ([`Clusters`](crate::Clusters)).
     pub clusters: Option<Texture>,
     /// Ambient occlusion, if it was computed ([`Occlusion`](crate::post::Occlusion)).
@@ -175,7 +197,7 @@ impl ViewUniforms {
         frame.node("view", |frame| ViewBuffers {
             view: frame.upload_buffer("view", self.view_bytes()),
             lights: frame.upload_buffer("lights", self.light_bytes()),
-            light_count: self.lights.len(),
+            light_binding: LightBinding::new(&self.lights),
             clusters: None,
             occlusion: None,
             sky: None,
@@ -212,6 +234,9 @@ impl GpuView {
 }
 
 impl GpuLight {
+    /// The kind of directional lights.
+    const DIRECTIONAL: u32 = 0;
+
     /// Converts a light, relative to `origin_world`; one that is not usable becomes zeros, which give no light.
     pub fn new(light: &Light, origin_world: DVec3) -> Self {
         if !light.is_usable() {

@@ -3,21 +3,9 @@
 use shadowgraph_core::{Bind, BufferToken, Error as GraphError, Pass, Resources, ShaderPass, TextureToken};
 use shadowgraph_shaders::{CLUSTERED, FEW_LIGHTS, ModuleSource, OCCLUDED, SKY_LIGHT};
 
-use crate::uniforms::{MAX_FEW_LIGHTS, ViewBuffers};
+use crate::uniforms::{LightBinding, ViewBuffers};
 
-/// The kind of the binding of the lights.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum LightBinding {
-    /// A storage buffer with any number of lights.
-    #[default]
-    Storage,
-    /// A uniform block with at most [`MAX_FEW_LIGHTS`].
-    Uniform,
-    /// A uniform block with one light.
-    OnlyOne,
-}
-
-/// The kind of the lights, and the bindings of group 0 that exist besides them and the view, in this order.
+/// How lights are read, and the bindings of group 0 that exist besides them and the view, in this order.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct OptionalBindings {
     lights: LightBinding,
@@ -34,7 +22,7 @@ impl OptionalBindings {
 
     /// Returns the bindings with an [`index`](Self::index).
     fn from_index(index: usize) -> Self {
-        let lights = [LightBinding::Storage, LightBinding::Uniform, LightBinding::OnlyOne][index / 8];
+        let lights = [LightBinding::Storage, LightBinding::Uniform, LightBinding::Sun][index / 8];
         Self { lights, clusters: index & 1 != 0, occlusion: index & 2 != 0, sky: index & 4 != 0 }
     }
 
@@ -80,8 +68,8 @@ impl OptionalBindings {
         match self.lights {
             LightBinding::Storage => {}
             LightBinding::Uniform => all.push(FEW_LIGHTS),
-            LightBinding::OnlyOne => {
-                all.push(FEW_LIGHTS.with_value("ONLY_ONE: bool = false", "ONLY_ONE: bool = true"))
+            LightBinding::Sun => {
+                all.push(FEW_LIGHTS.with_value("ONLY_SUN: bool = false", "ONLY_SUN: bool = true"))
             }
         }
         all.extend(self.clusters.then_some(CLUSTERED));
@@ -125,14 +113,10 @@ pub(crate) struct ViewTokens {
 }
 
 impl ViewBuffers {
-    /// Returns the kind of the lights, and the bindings that exist besides them and the view.
+    /// Returns how lights are read, and the bindings that exist besides them and the view.
     pub(crate) fn optional_bindings(&self) -> OptionalBindings {
         OptionalBindings {
-            lights: match self.light_count {
-                1 => LightBinding::OnlyOne,
-                ..=MAX_FEW_LIGHTS => LightBinding::Uniform,
-                _ => LightBinding::Storage,
-            },
+            lights: self.light_binding,
             clusters: self.clusters.is_some(),
             occlusion: self.occlusion.is_some(),
             sky: self.sky.is_some(),
@@ -154,7 +138,7 @@ impl ViewBuffers {
             view: pass.uniform_buffer(&self.view),
             lights: match bindings.lights {
                 LightBinding::Storage => pass.storage_buffer(&self.lights),
-                LightBinding::Uniform | LightBinding::OnlyOne => pass.uniform_buffer(&self.lights),
+                LightBinding::Uniform | LightBinding::Sun => pass.uniform_buffer(&self.lights),
             },
             clusters: self
                 .clusters

@@ -13,8 +13,6 @@ use crate::views::{
 pub(crate) const FEW_VIEWS: usize = 32;
 /// The largest number of lights of a scene whose [`ShadowLight`]s are read from a uniform block. `FEW_LIGHTS` of `few_views.wgsl`.
 pub(crate) const FEW_LIGHTS: usize = 32;
-/// The largest number of cascades of [`LookupSource::OneLight`].
-const FEW_CASCADES: u32 = 4;
 
 /// A variant of the WGSL that looks shadows up.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -50,7 +48,7 @@ pub enum LookupSource {
     Storage,
     /// Uniform blocks: the scene has at most 32 lights, and their shadows have at most 32 views.
     Uniform,
-    /// As `Uniform`; only the scene's first light has shadows, [simple](CommonLookup::simple) ones in at most four cascades.
+    /// As `Uniform`; only the scene's first light has shadows, [simple](CommonLookup::simple) ones in cascades.
     OneLight,
 }
 
@@ -137,7 +135,6 @@ impl LookupVariant {
             lights[0].view_count > 0
                 && shadowed().count() == 1
                 && first.first_view == 0
-                && first.view_count <= FEW_CASCADES
                 && (map, common.simple) == (MapUse::Cascades, true)
         };
         let source = match (lights.len(), views.len()) {
@@ -247,8 +244,6 @@ mod tests {
         );
         let one = CommonLookup { source: LookupSource::OneLight, ..common };
         assert_eq!(of(&[sun, ShadowLight::default()]), LookupVariant::Shadowed(one));
-        let five = ShadowLight { view_count: FEW_CASCADES + 1, ..sun };
-        assert_eq!(of(&[five]), LookupVariant::Shadowed(common));
         let many = CommonLookup { source: LookupSource::Storage, ..common };
         assert_eq!(of(&[sun; FEW_LIGHTS + 1]), LookupVariant::Shadowed(many));
         let blended = ShadowLight { blend: crate::views::BLEND_SOFT, ..sun };

@@ -16,5 +16,5 @@ const SIMPLE: bool = false;
 const TINTED: bool = true;
 // Whether the frame has shadows.
 const SHADOWED: bool = true;
-// Whether only the first light of the scene has shadows, in at most four cascades, and SIMPLE.
+// Whether only the first light of the scene has shadows, in cascades, and SIMPLE.
 const ONE_LIGHT: bool = false;

@@ -16,6 +16,28 @@ impl Compiled<'_> {
     /// The GPU begins while later steps are recorded. It is meant for the first frame of a program: drivers that compile shaders
     /// when they are first drawn with compile while the pipelines of later passes are created. It costs a submission for each step.
     ///
+    /// ```
+    /// use shadowgraph_core::{Contents, Format, Graph, TextureDesc};
+    /// # use shadowgraph_core::wgpu;
+    /// # let (device, queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
+    /// let mut graph = Graph::new();
+    /// for is_first in [true, false] {
+    ///     let mut frame = graph.frame();
+    ///     let mut color = frame.create_texture("color", TextureDesc::d2(64, 64, Format::Rgba8Unorm));
+    ///     frame.render_pass("sky").color(&mut color, Contents::clear_color([0.2, 0.4, 0.8, 1.0]));
+    ///     frame.export_texture(&color);
+    ///     let compiled = graph.compile(frame)?;
+    ///     if is_first {
+    ///         compiled.execute_submitted(&mut graph, &device, &queue)?;
+    ///     } else {
+    ///         let mut encoder = device.create_command_encoder(&Default::default());
+    ///         compiled.execute(&mut graph, &device, &mut encoder)?;
+    ///         queue.submit([encoder.finish()]);
+    ///     }
+    /// }
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
     /// # Errors
     /// As `execute`. The steps before the failed one are submitted then.
     pub fn execute_submitted(

@@ -1,9 +1,10 @@
-//! Recording on several threads.
+//! Recording on several threads, and submitting step by step.
 
 use super::gpu::{Gpu, NUMBERS, number, square};
 use crate::test_device::valid;
 use crate::{Bind, BufferExport, Contents, Error, Executed, Frame, Graph, Rect, Subresource, TextureExport};
-use std::sync::Mutex;
+use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::{Arc, Mutex};
 use std::thread::ThreadId;
 
 /// Declares sixteen tiles, each drawn several times, separately and merged, with uploads and compute passes between.
@@ -112,6 +113,58 @@ fn command_buffers_of_one_frame_may_be_submitted_one_by_one() {
             }
         }
     }
+}
+
+#[test]
+fn steps_that_are_submitted_one_by_one_give_the_same_pixels() {
+    for gpu in Gpu::all() {
+        let (draw, add) = (gpu.draw("number", NUMBERS), gpu.compute("add_number"));
+        let seen = Mutex::new(Vec::new());
+        let mut graph = Graph::new();
+        let (whole, exports) = frame(&graph, (&draw, &add), &seen);
+        let executed = gpu.run(&mut graph, whole);
+        let words = exports.words(&gpu, &executed);
+        for _ in 0..2 {
+            let (stepwise, exports) = frame(&graph, (&draw, &add), &seen);
+            let executed = valid(&gpu.device, || {
+                let compiled = graph.compile(stepwise).unwrap();
+                compiled.execute_submitted(&mut graph, &gpu.device, &gpu.queue).unwrap()
+            });
+            assert_eq!(exports.words(&gpu, &executed), words);
+        }
+    }
+}
+
+#[test]
+fn each_step_is_submitted_before_the_next_is_recorded() {
+    let gpu = Gpu::noop();
+    let submitted = Arc::new(AtomicU32::new(0));
+    let mut graph = Graph::new();
+    let mut frame = graph.frame();
+    for number in 0..3 {
+        let (device, submitted) = (&gpu.device, submitted.clone());
+        let mut pass = frame.encoder_pass("step");
+        pass.keep();
+        pass.body(move |ctx| {
+            device.poll(wgpu::PollType::wait_indefinitely()).unwrap();
+            assert_eq!(submitted.load(Ordering::Relaxed), number);
+            let buffer = device.create_buffer(&wgpu::BufferDescriptor {
+                label: None,
+                size: 4,
+                usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+                mapped_at_creation: false,
+            });
+            // wgpu calls back after the submission.
+            ctx.encoder.map_buffer_on_submit(&buffer, wgpu::MapMode::Read, .., move |_| {
+                submitted.fetch_add(1, Ordering::Relaxed);
+            });
+            Ok(())
+        });
+    }
+    let compiled = graph.compile(frame).unwrap();
+    compiled.execute_submitted(&mut graph, &gpu.device, &gpu.queue).unwrap();
+    gpu.device.poll(wgpu::PollType::wait_indefinitely()).unwrap();
+    assert_eq!(submitted.load(Ordering::Relaxed), 3);
 }
 
 #[test]
