@@ -80,6 +80,7 @@ pub use render_view::RenderView;
 pub use rendered::{CulledView, RenderedFrame, RenderedImage, shadow_ms};
 pub use renderer::Renderer;
 pub use renderer::aov::ViewOutput;
+pub use renderer::counts::PendingCounts;
 pub use scene_rays::SceneRays;
 pub use shadow_lines::{ShadowLines, ShadowLinesPass};
 pub use surfaces::SurfaceDrawer;

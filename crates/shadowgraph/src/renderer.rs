@@ -1,6 +1,7 @@
 //! Drawing a scene: the state that is kept from frame to frame.
 
 pub(crate) mod aov;
+pub(crate) mod counts;
 mod draw;
 mod record;
 

@@ -15,8 +15,8 @@ use shadowgraph::options::{Aov, GroundChoice, OptionError, SettingsFile, ShadowD
 use shadowgraph::scene::{AnimationSelection, Camera, Scene};
 use shadowgraph::shadows::{BudgetConfig, QualityController, SettingTracks, ShadowSettings, Technique};
 use shadowgraph::{
-    Background, Culling, Gpu, Pipeline, Registry, RenderConfig, Renderer, ShadowLines, ViewOptions,
-    shadow_ms, wgpu,
+    Background, CulledView, Culling, Gpu, Pipeline, Registry, RenderConfig, Renderer, ShadowLines,
+    ViewOptions, shadow_ms, wgpu,
 };
 use shadowgraph_samples::demo::demo_scene;
 
@@ -51,6 +51,8 @@ pub(super) struct Stage {
     pub(super) times: TimeHistory,
     /// The plan of the last valid frame.
     pub(super) plan: Option<Arc<Plan>>,
+    /// What views of that frame draw that the GPU culls, of how many instances.
+    pub(super) culled: (Vec<CulledView>, usize),
     /// Error of the current frame, which keeps the last valid image.
     pub(super) error: Option<String>,
     /// Error of the last file that was loaded.
@@ -104,6 +106,7 @@ impl Stage {
             tracks: input.options.tracks,
             times: TimeHistory::new(FRAMES),
             plan: None,
+            culled: Default::default(),
             error: None,
             file_error: None,
             note: String::new(),
@@ -237,11 +240,12 @@ impl Stage {
             self.file_error = Some(error.to_string());
         }
         let mut timer = Timer::new();
-        let plan = gpu.checked(|| -> Result<_, shadowgraph::Error> {
+        let (plan, culled) = gpu.checked(|| -> Result<_, shadowgraph::Error> {
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
-            let executed = renderer.record_timed(gpu, &mut encoder, target, &options, Some(&mut timer))?;
+            let (executed, counts) =
+                renderer.record_measured(gpu, &mut encoder, target, &options, &mut timer)?;
             gpu.queue.submit([encoder.finish()]);
-            Ok(executed.shared_plan())
+            Ok((executed.shared_plan(), counts.wait(&gpu.device)?))
         })?;
         let times = timer.read(&gpu.device, &gpu.queue)?;
         if let (Some(controller), Some(shadow_ms)) = (&mut self.controller, shadow_ms(&times)) {
@@ -249,6 +253,7 @@ impl Stage {
         }
         self.times.add(&times);
         self.plan = Some(plan);
+        self.culled = (culled, renderer.casters().scene.instance_count());
         Ok(())
     }
 

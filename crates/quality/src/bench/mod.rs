@@ -196,7 +196,7 @@ pub fn pass_times(
     let mut frame = || -> Result<Vec<PassTime>, Error> {
         let mut timer = Timer::new();
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        renderer.record_timed(gpu, &mut encoder, &target, options, Some(&mut timer))?;
+        renderer.record_measured(gpu, &mut encoder, &target, options, &mut timer)?;
         gpu.queue.submit([encoder.finish()]);
         Ok(timer.read(&gpu.device, &gpu.queue)?)
     };

@@ -1,13 +1,13 @@
 //! Images that are drawn and read back.
 
-use shadowgraph_core::{Buffer, Compiled, Executed, Frame, Graph, ReadBackRequest, Subresource, Timer};
-use shadowgraph_lighting::{CullCount, CullCounts};
+use shadowgraph_core::{Buffer, Compiled, Executed, Graph, Subresource, Timer};
 
 use super::Renderer;
+use super::counts::{CountRequests, read_back_error};
 use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::render_view::RenderView;
-use crate::rendered::{CulledView, RenderedFrame, RenderedImage};
+use crate::rendered::{RenderedFrame, RenderedImage};
 use crate::view_options::ViewOptions;
 
 impl Renderer {
@@ -64,22 +64,13 @@ impl Renderer {
             let mut frame = self.graph().frame();
             let output = self.add(&mut frame, &view)?;
             let request = frame.read_back_texture(&output.image, Subresource::FULL);
-            let counts = read_counts(&mut frame);
+            let counts = CountRequests::new(&mut frame);
             let mut graph = self.graph();
             let compiled = graph.compile(frame)?;
             let mut executed = execute(compiled, &mut graph)?;
             drop(graph);
             let texels = executed.read_back(request).ok_or_else(read_back_error)?;
-            let counts: Vec<_> =
-                counts.into_iter().map(|(views, request)| (views, executed.read_back(request))).collect();
-            let mut culled = Vec::new();
-            for (views, bytes) in counts {
-                let bytes = bytes.ok_or_else(read_back_error)?.wait(&gpu.device)?;
-                let numbers = bytes.as_chunks().0.iter().map(|&number| u32::from_le_bytes(number));
-                culled.extend(
-                    views.into_iter().zip(numbers).map(|(view, instances)| CulledView { view, instances }),
-                );
-            }
+            let culled = counts.take(&mut executed).wait(&gpu.device)?;
             let image = RenderedImage { size_px: options.size_px, rgba8: texels.wait(&gpu.device)? };
             let (plan, times) = (executed.shared_plan(), Vec::new());
             let unshadowed = output.unshadowed;
@@ -122,19 +113,4 @@ impl Renderer {
         self.count_frame();
         drawn
     }
-}
-
-/// Requests the numbers of instances of culled views, and returns the names of these.
-fn read_counts(frame: &mut Frame<'_>) -> Vec<(Vec<String>, ReadBackRequest)> {
-    let counts = CullCounts::published_in(frame).0.into_iter();
-    counts
-        .map(|CullCount { views, buffer, bytes }| {
-            (views, frame.read_back_buffer(&buffer, Subresource::FULL.bytes(bytes)))
-        })
-        .collect()
-}
-
-/// Returns the error for a read-back that the frame did not execute.
-fn read_back_error() -> Error {
-    Error::Gpu("nothing was read back".into())
 }

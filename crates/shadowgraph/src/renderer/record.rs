@@ -3,6 +3,7 @@
 use shadowgraph_core::{Executed, Format, Frame, Timer};
 
 use super::Renderer;
+use super::counts::{CountRequests, PendingCounts};
 use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::options::aov::Aov;
@@ -25,29 +26,45 @@ impl Renderer {
         target: &wgpu::Texture,
         options: &ViewOptions,
     ) -> Result<Executed, Error> {
-        self.record_timed(gpu, encoder, target, options, None)
+        self.record_view(gpu, target, options, |frame, renderer| renderer.execute(frame, gpu, encoder, None))
     }
 
-    /// Records a view like [`record`](Self::record), and measures every pass with `timer`: read it when the encoder is
-    /// submitted.
+    /// Records a view like [`record`](Self::record), measures every pass with `timer`, which is read when the encoder is submitted, and
+    /// counts what culled views draw.
     ///
     /// # Errors
     /// As `record`.
-    pub fn record_timed(
+    pub fn record_measured(
         &mut self,
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
         target: &wgpu::Texture,
         options: &ViewOptions,
-        timer: Option<&mut Timer>,
-    ) -> Result<Executed, Error> {
+        timer: &mut Timer,
+    ) -> Result<(Executed, PendingCounts), Error> {
+        self.record_view(gpu, target, options, |mut frame, renderer| {
+            let requests = CountRequests::new(&mut frame);
+            let mut executed = renderer.execute(frame, gpu, encoder, Some(timer))?;
+            let counts = requests.take(&mut executed);
+            Ok((executed, counts))
+        })
+    }
+
+    /// Declares the frame of a view, which `execute` executes.
+    fn record_view<T>(
+        &mut self,
+        gpu: &Gpu,
+        target: &wgpu::Texture,
+        options: &ViewOptions,
+        execute: impl FnOnce(Frame<'_>, &Self) -> Result<T, Error>,
+    ) -> Result<T, Error> {
         let options = options_for(target, options);
         self.check_target(target.format())?;
         self.begin_frame(gpu, &options)?;
         let view = self.view(&options, Some(target));
         let mut frame = self.graph().frame();
         self.add_into(&mut frame, &view, target)?;
-        let executed = self.execute(frame, gpu, encoder, timer);
+        let executed = execute(frame, self);
         self.count_frame();
         executed
     }

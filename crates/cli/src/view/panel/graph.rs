@@ -3,6 +3,7 @@
 use egui::{CollapsingHeader, Grid, Ui};
 
 use super::super::stage::Stage;
+use shadowgraph::CulledView;
 use shadowgraph::core::{NodeId, PassId, Plan, TimeSummary};
 
 #[derive(Default)]
@@ -21,6 +22,7 @@ impl GraphPanel {
             plan.culled_count(),
             plan.slot_bytes() as f64 / 1_048_576.0
         ));
+        drawn(ui, &stage.culled);
         let times = stage.times.summary();
         // Times are in order of recording; the first frame of a new plan has none yet.
         let times = |index: usize| times.get(index).filter(|_| times.len() == plan.order().len());
@@ -82,5 +84,48 @@ impl GraphPanel {
                 }
             }
         });
+    }
+}
+
+/// Shows how many of all instances the views draw that the GPU culls.
+fn drawn(ui: &mut Ui, (culled, all): &(Vec<CulledView>, usize)) {
+    if culled.is_empty() {
+        return;
+    }
+    CollapsingHeader::new(format!("drawn of {all} instances")).default_open(true).show(ui, |ui| {
+        Grid::new("drawn").num_columns(2).striped(true).show(ui, |ui| {
+            for CulledView { view, instances } in culled {
+                ui.label(view);
+                ui.monospace(instances.to_string());
+                ui.end_row();
+            }
+        });
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use egui::{Context, RawInput, Shape};
+
+    use super::*;
+
+    #[test]
+    fn each_culled_view_is_shown_with_what_it_draws() {
+        let views = [("camera", 12), ("cascade 0", 345)];
+        let culled = views.map(|(view, instances)| CulledView { view: view.into(), instances });
+        let mut output =
+            Context::default().run_ui(RawInput::default(), |ui| drawn(ui, &(culled.to_vec(), 1000)));
+        output.textures_delta.clear();
+        let texts: Vec<_> = output
+            .shapes
+            .iter()
+            .filter_map(|clipped| match &clipped.shape {
+                Shape::Text(text) => Some(text.galley.text().to_owned()),
+                _ => None,
+            })
+            .collect();
+        for expected in ["drawn of 1000 instances", "camera", "12", "cascade 0", "345"] {
+            assert!(texts.iter().any(|text| text == expected), "{expected}: {texts:?}");
+        }
     }
 }
