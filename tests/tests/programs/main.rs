@@ -4,6 +4,7 @@
 mod bad_gltf;
 mod dump;
 mod examples;
+mod first_image;
 mod fly;
 mod measure;
 mod nodes;
