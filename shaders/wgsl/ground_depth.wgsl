@@ -21,7 +21,8 @@ fn surface_view_depth(depth: f32, pixel: vec2f, ground: GroundPlane) -> f32 {
     if ground.exists == 0u {
         return 0.0;
     }
-    // Heights: only they matter. Across is the step from the middle of the image to the pixel, at 1 m in front of the camera.
+    // All in heights: the step from the middle of the image to the pixel, at 1 m in front of the camera; the start of the pixel's ray
+    // above the ground; and its fall in each metre of view depth.
     let offset = pixel - 0.5 * view.size_px;
     let across = view.pixel_right.y * offset.x - view.pixel_up.y * offset.y;
     let forward = -view.view_from_world[1].z;

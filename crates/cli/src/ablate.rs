@@ -2,7 +2,7 @@
 
 use shadowgraph::scene::{Light, Scene};
 use shadowgraph::shadows::{ShadowFilter, ShadowSettings};
-use shadowgraph::{Gpu, Renderer, ViewOptions};
+use shadowgraph::{Gpu, ViewOptions};
 use shadowgraph_quality::TextTable;
 use shadowgraph_quality::bench::{Stats, WholeFrame, warm_up, whole_frames_in_turn};
 
@@ -79,8 +79,7 @@ pub(crate) fn ablate(gpu: &Gpu, input: &Input, view: &ViewOptions, frames: u32) 
         let mut scene = input.scene.clone();
         let mut view = view.clone();
         (ablation.edit)(&mut scene, &mut view.shadows);
-        let (aov, config) = (input.options.aov.clone(), input.options.render_config());
-        let mut renderer = Renderer::with_config(gpu, scene, &input.camera, aov, config)?;
+        let mut renderer = input.options.renderer(gpu, scene, &input.camera)?;
         // Shaders are compiled as the first frames are drawn.
         let folder = ablation.shader.map(edited_shader).transpose()?;
         let path = folder.as_ref().map(|folder| folder.path().to_owned());

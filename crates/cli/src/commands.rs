@@ -29,8 +29,7 @@ pub(crate) struct Input {
 impl Input {
     /// Creates the renderer of the scene.
     pub(crate) fn renderer(self, gpu: &Gpu) -> Result<Renderer, Failure> {
-        let (aov, config) = (self.options.aov.clone(), self.options.render_config());
-        Ok(Renderer::with_config(gpu, self.scene, &self.camera, aov, config)?)
+        Ok(self.options.renderer(gpu, self.scene, &self.camera)?)
     }
 }
 
@@ -95,11 +94,10 @@ pub(super) fn play(
     drawing: &Progress,
     keep: &mut Keep<'_>,
 ) -> Result<(Renderer, ViewOptions), Failure> {
-    let (aov, base, config) =
-        (input.options.aov.clone(), view_options(&input)?, input.options.render_config());
+    let base = view_options(&input)?;
     let mut view = tracked(&base, &input.options, input.options.time.0)?;
     let shadow_camera = shadow_camera(&input)?;
-    let mut renderer = Renderer::with_config(gpu, input.scene, &input.camera, aov, config)?;
+    let mut renderer = input.options.renderer(gpu, input.scene, &input.camera)?;
     renderer.set_shadow_camera(shadow_camera);
     renderer.set_overlay(gpu, input.options.overlay)?;
     let FramesArgs { count, fps } = frames;

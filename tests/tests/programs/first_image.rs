@@ -22,6 +22,6 @@ fn the_steps_to_the_first_image_add_up_and_the_second_takes_less() {
         line.split_whitespace().last().unwrap().parse().unwrap()
     };
     let steps = seconds("open the GPU") + seconds("upload the scene") + seconds("compile shaders and draw");
-    assert!((steps - seconds("first image")).abs() < 0.02, "{out}");
+    assert!((steps - seconds("first image")).abs() < 0.03, "{out}");
     assert!(seconds("second image") < seconds("compile shaders and draw"), "{out}");
 }

@@ -4,8 +4,9 @@ use shadowgraph::options::{
     AdapterChoice, AnimationChoice, AnimationTime, Aov, CameraChoice, GroundChoice, ShadowDistance, Size,
     SunChoice,
 };
+use shadowgraph::scene::{Camera, Scene};
 use shadowgraph::shadows::{SettingTracks, ShadowSettings, Technique};
-use shadowgraph::{Background, Culling, Pipeline, RenderConfig, ShadowLines};
+use shadowgraph::{Background, Culling, Gpu, Pipeline, RenderConfig, Renderer, ShadowLines};
 
 /// The options of a drawing command, without the files of the scene and the output.
 #[derive(Clone, Debug, PartialEq)]
@@ -60,6 +61,16 @@ impl Options {
             background: self.background,
             culling: self.culling,
         }
+    }
+
+    /// Creates the renderer of a scene, for a first view from `camera`.
+    pub(crate) fn renderer(
+        &self,
+        gpu: &Gpu,
+        scene: Scene,
+        camera: &Camera,
+    ) -> Result<Renderer, shadowgraph::Error> {
+        Renderer::with_config(gpu, scene, camera, self.aov.clone(), self.render_config())
     }
 }
 

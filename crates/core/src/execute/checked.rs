@@ -67,10 +67,7 @@ fn record(
     queue: &wgpu::Queue,
 ) -> Result<Executed, Error> {
     let mut buffers = Vec::new();
-    let executed =
-        record_steps(compiled, &mut graph.device, device, Some(wgpu::ErrorFilter::Validation), |buffer| {
-            buffers.push(buffer);
-        })?;
+    let executed = record_steps(compiled, &mut graph.device, device, true, |buffer| buffers.push(buffer))?;
     queue.submit(buffers);
     Ok(executed)
 }

@@ -50,17 +50,17 @@ impl Compiled<'_> {
         let submit = |buffer| {
             queue.submit([buffer]);
         };
-        record_steps(self, pool, device, None, submit).map_err(|error| pool.classify_error(device, error))
+        record_steps(self, pool, device, false, submit).map_err(|error| pool.classify_error(device, error))
     }
 }
 
 /// Records the frame and passes the command buffers on in order: that of the uploads, one for each step and that of the read-backs.
-/// Stops at the first step with an error that `filter` catches, which names its passes.
+/// With `checks`, it stops at the first step with a validation error of wgpu, which names its passes.
 pub(super) fn record_steps(
     mut compiled: Compiled<'_>,
     pool: &mut Pool,
     device: &wgpu::Device,
-    filter: Option<wgpu::ErrorFilter>,
+    checks: bool,
     mut pass_on: impl FnMut(wgpu::CommandBuffer),
 ) -> Result<Executed, Error> {
     let encoder = || device.create_command_encoder(&Default::default());
@@ -70,7 +70,7 @@ pub(super) fn record_steps(
     let recording = prepared.recording(&compiled, pool, device, None);
     pass_on(first.finish());
     for (index, step) in compiled.plan.steps().enumerate() {
-        let scope = filter.map(|filter| device.push_error_scope(filter));
+        let scope = checks.then(|| device.push_error_scope(wgpu::ErrorFilter::Validation));
         let mut encoder = encoder();
         let take = |pass: PassId| std::mem::replace(&mut bodies[pass.index()], Body::None);
         let recorded = recording.steps(index..index + 1, &mut encoder, take);
