@@ -36,6 +36,9 @@ impl KeyLight {
 /// An estimate of the [`KeyLight`] of a scene that changes from frame to frame: only what changed is estimated again.
 #[derive(Clone, Debug, Default)]
 pub struct KeyLightEstimate {
+    /// All lights of the last update.
+    lights: Vec<Light>,
+    directional_lx: f32,
     local: Vec<LocalLight>,
     /// The bounds of the sampled objects, and their illuminance.
     samples: Vec<(Aabb, f64)>,
@@ -45,20 +48,23 @@ pub struct KeyLightEstimate {
 impl KeyLightEstimate {
     /// Estimates the key light of objects with these bounds, ignoring shadows.
     pub fn update(&mut self, lights: &[Light], objects: &[Aabb]) -> KeyLight {
-        let usable = || lights.iter().filter(|light| light.is_usable());
-        let suns = usable().filter(|light| matches!(light.kind, LightKind::Directional { .. }));
-        let directional_lx = suns.map(strength).sum::<f64>() as f32;
-        let local = usable().filter_map(LocalLight::new);
-        let mut is_changed = !self.local.iter().copied().eq(local.clone());
-        if is_changed {
-            self.local = local.collect();
-            self.samples.clear();
+        let has_lights_changed = self.lights != lights;
+        if has_lights_changed {
+            self.set_lights(lights);
         }
-        is_changed |= self.follow(objects);
-        if is_changed {
+        if self.follow(objects) || has_lights_changed {
             self.local_lx = self.median() as f32;
         }
-        KeyLight { directional_lx, local_lx: self.local_lx }
+        KeyLight { directional_lx: self.directional_lx, local_lx: self.local_lx }
+    }
+
+    fn set_lights(&mut self, lights: &[Light]) {
+        let usable = || lights.iter().filter(|light| light.is_usable());
+        let suns = usable().filter(|light| matches!(light.kind, LightKind::Directional { .. }));
+        self.directional_lx = suns.map(strength).sum::<f64>() as f32;
+        self.local = usable().filter_map(LocalLight::new).collect();
+        self.samples.clear();
+        self.lights = lights.to_vec();
     }
 
     /// Estimates the illuminance of sampled objects that changed, and returns whether any did.

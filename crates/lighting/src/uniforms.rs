@@ -258,13 +258,14 @@ impl GpuLight {
             }
             LightKind::Spot { position_world, direction, range: end, inner_angle, outer_angle } => {
                 // KHR_lights_punctual: full light up to the inner angle, none from the outer angle on.
-                let scale = 1.0 / (inner_angle.cos() - outer_angle.cos()).max(0.001);
+                let cos_outer = outer_angle.cos();
+                let scale = 1.0 / (inner_angle.cos() - cos_outer).max(0.001);
                 Self {
                     position: relative(position_world),
                     direction: direction.normalize().as_vec3(),
                     range: range(end),
                     spot_scale: scale as f32,
-                    spot_offset: (-outer_angle.cos() * scale) as f32,
+                    spot_offset: (-cos_outer * scale) as f32,
                     ..common
                 }
             }

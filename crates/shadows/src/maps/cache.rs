@@ -69,7 +69,7 @@ impl CachedMap {
         read(find(&state.tiles, rect).map(|(held, _)| held), stored)
     }
 
-    /// Gives the static casters of a tile and its store that the GPU culls a version, unless they have changed since theirs.
+    /// Gives the static casters of a tile and its store a new version, unless they have changed since theirs.
     pub(super) fn renew(&self, rect: TileRect, version: u64, is_same: impl Fn(u64) -> bool) {
         let mut state = self.state();
         let renew = |entry: &mut u64| {
@@ -80,6 +80,7 @@ impl CachedMap {
         if let Some((_, (held, _))) = state.tiles.iter_mut().find(|(other, _)| *other == rect) {
             let all = held.statics.iter_mut().filter(|(caster, _)| *caster == ALL_STATIC);
             all.for_each(|(_, entry)| renew(entry));
+            held.static_version.iter_mut().for_each(renew);
         }
         let stored = state.store.iter_mut().flat_map(|store| &mut store.tiles);
         for (_, stored) in stored.filter(|(other, _)| *other == rect) {

@@ -77,8 +77,18 @@ pub(super) struct Held {
     pub(super) location: Location,
     /// Whether `statics` are those in the whole tile, not those that mattered to one view.
     pub(super) whole: bool,
+    /// The version of all static casters when `statics` were found, if they have one.
+    pub(super) static_version: Option<u64>,
     pub(super) statics: Versions,
     pub(super) moving: Vec<(u32, Option<u64>)>,
+}
+
+impl Held {
+    /// Returns the static casters in the whole tile at this location, if they are known at this version of all.
+    pub(super) fn statics_at(&self, location: &Location, static_version: Option<u64>) -> Option<&Versions> {
+        let is_same = static_version.is_some() && self.static_version == static_version;
+        (self.whole && is_same && self.location == *location).then_some(&self.statics)
+    }
 }
 
 /// The contents of a tile of the store of static casters.

@@ -23,6 +23,8 @@ use crate::plan::TilePlan;
 pub(super) struct Tile<'p> {
     pub(super) plan: &'p TilePlan,
     pub(super) wanted: Wanted,
+    /// See [`GpuCasters::static_version`]; `None` for casters that the GPU does not cull.
+    static_version: Option<u64>,
     /// The static casters in the whole tile, if they were needed.
     pub(super) whole: Versions,
     pub(super) work: Work,
@@ -42,9 +44,11 @@ pub(super) fn plan_tile<'p>(
     let casters = source.casters;
     let gpu = culled_by(tile, source);
     let volume = tile.fit.volume();
-    if let Some(gpu) = gpu {
-        cached.renew(tile.rect, gpu.static_version(), |version| !gpu.has_changed(version, &volume));
-    }
+    let static_version = casters.gpu().map(|gpu| {
+        let version = gpu.static_version();
+        cached.renew(tile.rect, version, |since| !gpu.has_changed(since, &volume));
+        version
+    });
     let wanted = wanted(map.pass, tile, source);
     cached.with_tile(tile.rect, |held, stored| {
         let whole = OnceCell::new();
@@ -52,7 +56,10 @@ pub(super) fn plan_tile<'p>(
             whole.get_or_init(|| match gpu {
                 Some(gpu) if gpu.any(&volume) => vec![(ALL_STATIC, gpu.static_version())],
                 Some(_) => Vec::new(),
-                None => statics(casters, &volume),
+                None => {
+                    let known = held.and_then(|held| held.statics_at(&wanted.location, static_version));
+                    known.cloned().unwrap_or_else(|| statics(casters, &volume))
+                }
             })
         };
         let count = || gpu.map_or_else(|| all().len(), GpuCasters::static_count);
@@ -69,7 +76,7 @@ pub(super) fn plan_tile<'p>(
         let reason = reason(&work, held, &wanted, static_count, casters);
         let whole = whole.into_inner().unwrap_or_default();
         let drawn = drawn(map.pass, tile, &work, (&whole, &wanted), queries);
-        Tile { plan: tile, whole, casters: drawn, reason, work, wanted }
+        Tile { plan: tile, static_version, whole, casters: drawn, reason, work, wanted }
     })
 }
 
@@ -157,7 +164,13 @@ impl Tile<'_> {
         let whole = self.is_whole();
         let statics = if whole { &self.whole } else { &self.wanted.seen };
         let Wanted { location, moving, .. } = &self.wanted;
-        Held { location: location.clone(), whole, statics: statics.clone(), moving: moving.clone() }
+        Held {
+            location: location.clone(),
+            whole,
+            static_version: self.static_version,
+            statics: statics.clone(),
+            moving: moving.clone(),
+        }
     }
 
     /// Returns what the tile of the store holds once it has been filled.
