@@ -412,7 +412,7 @@ impl Declaration {
             && passes.len() == other.passes.len()
             && accesses.len() == other.accesses.len()
             && *options == other.options
-            && *clears == other.clears
+            && clears.len() == other.clears.len()
             && *names == other.names
             && *subresources == other.subresources
             && *nodes == other.nodes
@@ -426,7 +426,9 @@ impl Declaration {
         }
         let pairs = || resources.iter().zip(&other.resources);
         if pairs().all(|(a, b)| a == b) {
-            FrameSimilarity::Same
+            if *clears == other.clears { FrameSimilarity::Same } else { FrameSimilarity::OtherClears }
+        } else if *clears != other.clears {
+            FrameSimilarity::Other
         } else if pairs().all(|(a, b)| a.same_except_size(b)) {
             FrameSimilarity::OtherSizes
         } else {
@@ -439,6 +441,8 @@ impl Declaration {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum FrameSimilarity {
     Same,
+    /// The same except for clear values.
+    OtherClears,
     /// The same except for sizes of textures and buffers.
     OtherSizes,
     Other,

@@ -69,11 +69,21 @@ impl Buffer {
 /// Identifies an access of a pass to a resource.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Token {
-    pub(crate) frame: u64,
-    pub(crate) pass: PassId,
-    pub(crate) resource: ResourceId,
-    /// Index of the access in the frame; it determines the subresource.
+    /// The lower half of the frame's number.
+    frame: u32,
+    /// Index of the access in the frame; it determines the pass, the resource and the subresource.
     pub(crate) access: u32,
+}
+
+impl Token {
+    pub(crate) fn new(frame: u64, access: u32) -> Self {
+        Self { frame: frame as u32, access }
+    }
+
+    /// Returns whether the token is of this frame.
+    pub(crate) fn is_of(self, frame: u64) -> bool {
+        self.frame == frame as u32
+    }
 }
 
 /// A declared access to a texture, for the body of the pass that declared it.

@@ -19,12 +19,14 @@ use crate::handle::Token;
 use crate::handle::{NodeId, PassId, ResourceId, SlotId};
 use crate::subresource::{Region, Subresource};
 use serde::Serialize;
+use std::sync::atomic::{AtomicU64, Ordering};
 use wgpu_types::{BufferUsages, TextureUsages};
 
 /// The compiled form of a frame. Dumps print it; the executor follows it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Plan {
     pub(crate) decl: Declaration,
+    pub(crate) structure: StructureId,
     /// Reason why each pass is culled, by pass.
     pub(crate) culled: Vec<Option<CullReason>>,
     /// The passes that run, in order.
@@ -43,6 +45,29 @@ pub struct Plan {
     /// Resources in slots; each slot has a range of it.
     pub(crate) slot_resources: Vec<ResourceId>,
     pub(crate) dependencies: Vec<Dependency>,
+}
+
+/// Identifies plans that differ only in clear values: the same objects fit them. It is not part of what a plan says, so plans
+/// with different ones can be equal.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct StructureId(u64);
+
+impl StructureId {
+    /// Returns a new one.
+    pub(crate) fn new() -> Self {
+        static NEXT: AtomicU64 = AtomicU64::new(1);
+        Self(NEXT.fetch_add(1, Ordering::Relaxed))
+    }
+
+    pub(crate) fn is_same(self, other: Self) -> bool {
+        self.0 == other.0
+    }
+}
+
+impl PartialEq for StructureId {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
 }
 
 /// The lifetime, usages and slot of a resource.
@@ -412,16 +437,19 @@ impl Plan {
     /// Returns the resource of a token used in `pass`: only tokens of that pass resolve.
     #[cfg(any(feature = "gpu", test))]
     pub(crate) fn resolve(&self, frame: u64, pass: PassId, token: Token) -> Result<ResourceId, Error> {
-        if token.frame != frame {
-            return Err(Error::ForeignHandle { location: format!("pass `{}`", self.pass_path(pass)) });
+        let index = token.access as usize;
+        match self.decl.accesses.get(index).filter(|_| token.is_of(frame)) {
+            None => Err(Error::ForeignHandle { location: format!("pass `{}`", self.pass_path(pass)) }),
+            Some(access) if self.decl.access_range(pass).contains(&index) => Ok(access.resource),
+            Some(access) => {
+                let declared_by =
+                    self.decl.pass_ids().find(|&id| self.decl.access_range(id).contains(&index));
+                Err(Error::Undeclared {
+                    pass: self.pass_path(pass),
+                    resource: self.resource(access.resource).name.into(),
+                    declared_by: declared_by.map_or_else(String::new, |id| self.pass_path(id)),
+                })
+            }
         }
-        if token.pass != pass {
-            return Err(Error::Undeclared {
-                pass: self.pass_path(pass),
-                resource: self.resource(token.resource).name.into(),
-                declared_by: self.pass_path(token.pass),
-            });
-        }
-        Ok(token.resource)
     }
 }

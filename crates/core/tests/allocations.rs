@@ -65,17 +65,18 @@ mod bodies {
     use shadowgraph_core::{Contents, Format, Frame, FullscreenShader, Graph, Texture, TextureDesc, wgpu};
 
     #[test]
-    fn a_pass_body_is_one_allocation_and_only_where_it_borrows_something() {
+    fn a_pass_body_is_one_allocation_and_only_where_it_captures_much() {
         let chain = Chain::new(100);
         let mut handles: Vec<Texture> = Vec::new();
-        let mut counted = |captures: bool| {
+        let mut counted = |captures_much: bool| {
             allocations(|frame| {
                 let import = |frame: &mut _, texture| chain.import(frame, texture);
                 chain.declare(frame, &mut handles, 0.5, import, |pass, _, tokens| {
-                    if captures {
-                        pass.body(move |context| context.texture(tokens[0]).map(|_| ()));
+                    if captures_much {
+                        let much = [tokens; 3];
+                        pass.body(move |context| context.texture(much[2][0]).map(|_| ()));
                     } else {
-                        pass.body(|_| Ok(()));
+                        pass.body(move |context| context.texture(tokens[0]).map(|_| ()));
                     }
                 });
             })

@@ -11,6 +11,8 @@ pub(crate) struct Drawing {
     pub(crate) programs: [Program; FAN_IN],
     /// First and last texture of the chain.
     pub(crate) ends: [wgpu::Texture; 2],
+    /// Passes cost more on a device with buffers than on one without, and every program has some.
+    _buffers: [wgpu::Buffer; 16],
 }
 
 pub(crate) struct Program {
@@ -23,7 +25,15 @@ impl Drawing {
     pub(crate) fn new(device: wgpu::Device, queue: wgpu::Queue) -> Self {
         let programs = std::array::from_fn(|index| Program::new(&device, index + 1));
         let ends = [(); 2].map(|()| texture(&device));
-        Self { device, queue, programs, ends }
+        let buffers = std::array::from_fn(|_| {
+            device.create_buffer(&wgpu::BufferDescriptor {
+                label: None,
+                size: 4,
+                usage: wgpu::BufferUsages::VERTEX,
+                mapped_at_creation: false,
+            })
+        });
+        Self { device, queue, programs, ends, _buffers: buffers }
     }
 
     /// Returns the shader for this many textures.

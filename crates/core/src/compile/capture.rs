@@ -2,7 +2,7 @@
 
 use super::{alias, lifetime, ops};
 use crate::desc::ResourceDesc;
-use crate::plan::{MergeReason, Plan, StoreAction};
+use crate::plan::{MergeReason, Plan, StoreAction, StructureId};
 use wgpu_types::{BufferUsages, TextureUsages};
 
 /// Plans the same passes in the same order, but without merging, with every attachment stored, and each resource in its
@@ -29,6 +29,7 @@ pub(crate) fn capturing(plan: &Plan) -> Plan {
     let alias::Aliasing { placements, slots, resources: slot_resources } =
         alias::alias(&decl, &uses, steps.len());
     Plan {
+        structure: StructureId::new(),
         merge_reasons: vec![MergeReason::Off; plan.order.len()],
         steps,
         ops,

@@ -23,7 +23,7 @@ pub(crate) use validate::copy_extent;
 
 use crate::declaration::Declaration;
 use crate::error::Error;
-use crate::plan::{CullReason, Dependency, Plan};
+use crate::plan::{CullReason, Dependency, Plan, StructureId};
 use tracing::debug_span;
 
 /// Compiles a frame's declarations.
@@ -42,6 +42,41 @@ pub(crate) fn resize(decl: Declaration, plan: &Plan) -> Result<Plan, Error> {
     Ok(schedule(decl, plan.culled.clone(), plan.dependencies.clone()))
 }
 
+/// Compiles declarations that differ from those of a plan only in clear values: everything but load operations is the same.
+pub(crate) fn reclear(decl: Declaration, plan: &Plan) -> Result<Plan, Error> {
+    let _span = debug_span!("reclear", passes = decl.passes.len()).entered();
+    validate::validate_clears(&decl)?;
+    let ops = ops::ops(&decl, &plan.order, &plan.steps);
+    let Plan {
+        decl: _,
+        structure,
+        culled,
+        order,
+        order_reasons,
+        merge_reasons,
+        steps,
+        ops: _,
+        placements,
+        slots,
+        slot_resources,
+        dependencies,
+    } = plan;
+    Ok(Plan {
+        decl,
+        structure: *structure,
+        culled: culled.clone(),
+        order: order.clone(),
+        order_reasons: order_reasons.clone(),
+        merge_reasons: merge_reasons.clone(),
+        steps: steps.clone(),
+        ops,
+        placements: placements.clone(),
+        slots: slots.clone(),
+        slot_resources: slot_resources.clone(),
+        dependencies: dependencies.clone(),
+    })
+}
+
 /// Makes the decisions that depend on sizes.
 ///
 /// Merging comes before lifetimes and slots: passes that share a render pass cannot share an attachment's slot.
@@ -55,6 +90,7 @@ fn schedule(decl: Declaration, culled: Vec<Option<CullReason>>, dependencies: Ve
     let alias::Aliasing { placements, slots, resources: slot_resources } = aliasing;
     Plan {
         decl,
+        structure: StructureId::new(),
         culled,
         order,
         order_reasons,

@@ -37,6 +37,12 @@ pub(super) fn validate(decl: &Declaration) -> Result<(), Error> {
     contents.exports(decl)
 }
 
+/// Checks the clear values only.
+pub(super) fn validate_clears(decl: &Declaration) -> Result<(), Error> {
+    let accesses = |pass| decl.accesses(pass).iter().map(move |access| (pass, access));
+    decl.pass_ids().flat_map(accesses).try_for_each(|(pass, access)| access::check_clear(decl, pass, access))
+}
+
 fn shape_problem(origin: Origin, desc: &ResourceDesc) -> Option<String> {
     match desc {
         ResourceDesc::Buffer(BufferDesc { bytes }) => {

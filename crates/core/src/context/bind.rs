@@ -74,10 +74,8 @@ impl Resources<'_> {
             keys.len() == entries.len()
                 && keys.iter().zip(entries.clone()).all(|(key, entry)| matches(key, self, entry.borrow()))
         };
-        if let Some(key) = pass_groups.and_then(|groups| groups.find(self.pass, layout, same))
-            && let Some(group) = self.caches().bind_groups.get(key)
-        {
-            return Ok(group);
+        if let Some(group) = pass_groups.and_then(|groups| groups.find(self.pass, layout, same)) {
+            return Ok(group.clone());
         }
         let (key, group) = if entries.len() > INLINE_ENTRIES {
             let bound = entries.clone().map(|entry| self.bound(entry.borrow()));
@@ -91,7 +89,7 @@ impl Resources<'_> {
         };
         if let Some(groups) = pass_groups {
             let keys = || entries.map(|entry| entry_key(self, entry.borrow())).collect();
-            groups.insert(self.pass, layout, keys, key);
+            groups.insert(self.pass, layout, keys, (key, &group));
         }
         Ok(group)
     }

@@ -9,8 +9,9 @@ use crate::pool::EntryKey;
 /// drop it.
 pub(super) fn entry_key(resources: &Resources<'_>, entry: &Bind<'_>) -> Option<EntryKey> {
     let transient = |token: Token| {
-        let resource = resources.recording.plan.decl.resource(token.resource);
-        (resource.origin == Origin::Transient).then_some(token.access)
+        let decl = &resources.recording.plan.decl;
+        let access = decl.accesses.get(token.access as usize)?;
+        (decl.resource(access.resource).origin == Origin::Transient).then_some(token.access)
     };
     match entry {
         Bind::Texture(token) | Bind::TextureArray(token) => transient(token.0).map(EntryKey::Access),
@@ -28,7 +29,7 @@ pub(super) fn entry_key(resources: &Resources<'_>, entry: &Bind<'_>) -> Option<E
 /// Returns whether an entry binds what the key identifies. A token of another frame or pass never does.
 pub(super) fn matches(key: &EntryKey, resources: &Resources<'_>, entry: &Bind<'_>) -> bool {
     let recording = resources.recording;
-    let same = |token: &Token, access: u32| token.frame == recording.frame && token.access == access;
+    let same = |token: &Token, access: u32| token.is_of(recording.frame) && token.access == access;
     match (key, entry) {
         // The layout distinguishes the two kinds of texture entries.
         (&EntryKey::Access(access), Bind::Texture(token) | Bind::TextureArray(token)) => {

@@ -1,9 +1,11 @@
 //! Pass bodies and their contexts: the pass that a body records and the resources that it declared.
 
 mod bind;
+mod body;
 mod entry_keys;
 mod recording;
 
+pub(crate) use body::{Bodies, Body};
 pub(crate) use recording::{Recording, Uploads};
 
 use crate::desc::ResourceDesc;
@@ -17,15 +19,6 @@ use std::sync::MutexGuard;
 
 /// The result of a pass body; wrap your own errors with [`Error::body`].
 pub type BodyResult = Result<(), Error>;
-
-pub(crate) enum Body<'f> {
-    None,
-    Render(Box<dyn for<'a> FnOnce(&mut RenderContext<'a>) -> BodyResult + Send + 'f>),
-    Compute(Box<dyn for<'a> FnOnce(&mut ComputeContext<'a>) -> BodyResult + Send + 'f>),
-    Encoder(Box<dyn for<'a> FnOnce(&mut EncoderContext<'a>) -> BodyResult + Send + 'f>),
-    /// The index of one of the frame's shader passes.
-    ShaderPass(u32),
-}
 
 /// The declared resources of one pass, and their bind groups.
 pub struct Resources<'a> {
@@ -91,10 +84,13 @@ impl<'a> Resources<'a> {
     }
 
     pub(crate) fn byte_range(&self, token: Token) -> Range<u64> {
-        let all = match self.recording.plan.decl.resource(token.resource).desc {
-            ResourceDesc::Buffer(desc) => desc.bytes,
-            ResourceDesc::Texture(_) => 0,
-        };
+        let decl = &self.recording.plan.decl;
+        let all = decl.accesses.get(token.access as usize).map_or(0, |access| {
+            match decl.resource(access.resource).desc {
+                ResourceDesc::Buffer(desc) => desc.bytes,
+                ResourceDesc::Texture(_) => 0,
+            }
+        });
         let (start, end) = self.part(token).bytes.unwrap_or((0, all));
         start..end
     }

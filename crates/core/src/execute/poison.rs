@@ -4,35 +4,11 @@
 use crate::access::ClearValue;
 use crate::context::Recording;
 use crate::declaration::Origin;
-use crate::desc::{Format, ResourceDesc};
 use crate::handle::PassId;
-use crate::plan::{AttachmentOps, LoadAction, LoadReason, StoreAction};
-use crate::pool::{PhysicalResource, ViewUsage, create_view};
+use crate::plan::StoreAction;
+use crate::pool::{PhysicalResource, ViewUsage, create_view, poison_value};
 use crate::subresource::{Aspect, Subresource};
-use wgpu::{TextureDimension, TextureSampleType, TextureUsages};
-
-/// Returns the fill value of a format: NaN for floats, the largest or -1 for integers, otherwise an unusual magenta; for
-/// depth and stencil a value in between.
-fn poison_value(format: Format) -> ClearValue {
-    use wgpu::TextureFormat::{
-        R16Float, R32Float, Rg11b10Ufloat, Rg16Float, Rg32Float, Rgba16Float, Rgba32Float,
-    };
-    if format.is_depth_stencil_format() {
-        return ClearValue::DepthStencil(0.53, 0xcd);
-    }
-    ClearValue::Color(match (format, format.sample_type(None, None)) {
-        (Format::Rgb10a2Uint, _) => [1023.0, 1023.0, 1023.0, 3.0],
-        (_, Some(TextureSampleType::Uint)) => {
-            let bits = 8 * format.block_copy_size(None).unwrap_or(4) / u32::from(format.components());
-            [2f64.powi(bits as i32) - 1.0; 4]
-        }
-        (_, Some(TextureSampleType::Sint)) => [-1.0; 4],
-        (R16Float | R32Float | Rg11b10Ufloat | Rg16Float | Rg32Float | Rgba16Float | Rgba32Float, _) => {
-            [f64::NAN; 4]
-        }
-        _ => [0.93, 0.07, 0.93, 0.53],
-    })
-}
+use wgpu::{TextureDimension, TextureUsages};
 
 impl Recording<'_> {
     /// Fills the slots of resources whose lifetime begins in this step.
@@ -63,20 +39,6 @@ impl Recording<'_> {
                 self.fill_texture(encoder, texture, decl.subresource(access));
             }
         }
-    }
-
-    /// Returns the operations of an attachment. In poison mode, a clear replaces a load of contents that nothing may rely on.
-    pub(super) fn attachment_ops(&self, access: usize) -> Option<AttachmentOps> {
-        let mut ops = self.plan.ops[access]?;
-        let resource = self.plan.decl.resource(self.plan.decl.accesses[access].resource);
-        if self.pool.poison
-            && resource.origin == Origin::Transient
-            && matches!(ops.load_reason, LoadReason::Overwritten | LoadReason::RestUnneeded)
-            && let ResourceDesc::Texture(desc) = resource.desc
-        {
-            ops.load = LoadAction::Clear(poison_value(desc.format));
-        }
-        Some(ops)
     }
 
     /// Fills the mips, layers (slices of a volume) and aspect of a part.

@@ -5,7 +5,7 @@ use super::copies::{record_copies, stage_uploads};
 use super::read_back::ReadBack;
 use super::shader_pass;
 use crate::compiled::Compiled;
-use crate::context::{Body, ComputeContext, EncoderContext, Recording, Resources, Uploads};
+use crate::context::{Bodies, Body, ComputeContext, EncoderContext, Recording, Resources, Uploads};
 use crate::declaration::PassKind;
 use crate::error::Error;
 use crate::handle::{PassId, ResourceId};
@@ -51,12 +51,11 @@ fn record_plan(
     }
     let mut bodies = std::mem::take(&mut compiled.frame.work.bodies);
     let recording = prepared.recording(&compiled, pool, device, timer.as_deref());
-    let mut take = |pass: PassId| std::mem::replace(&mut bodies[pass.index()], Body::None);
     match after_pass {
-        None => recording.steps(0..compiled.plan.steps.len(), encoder, take)?,
+        None => recording.steps(0..compiled.plan.steps.len(), encoder, Bodies::OfFrame(&mut bodies))?,
         Some(after_pass) => {
             for (index, step) in compiled.plan.steps().enumerate() {
-                recording.steps(index..index + 1, encoder, &mut take)?;
+                recording.steps(index..index + 1, encoder, Bodies::OfFrame(&mut bodies))?;
                 step.passes.iter().try_for_each(|&pass| after_pass(&recording, pass, encoder))?;
             }
         }
@@ -128,12 +127,12 @@ impl Prepared {
 }
 
 impl<'a> Recording<'a> {
-    /// Records some of the steps; `take` returns the body of each pass and is called in their order.
-    pub(super) fn steps<'f>(
+    /// Records some of the steps.
+    pub(super) fn steps(
         &'a self,
         steps: Range<usize>,
         encoder: &mut wgpu::CommandEncoder,
-        mut take: impl FnMut(PassId) -> Body<'f>,
+        mut bodies: Bodies<'_, '_>,
     ) -> Result<(), Error> {
         for step in steps {
             let (start, end) = self.plan.steps[step];
@@ -142,9 +141,11 @@ impl<'a> Recording<'a> {
                 self.poison_first_uses(step, encoder);
             }
             match self.plan.decl.pass(passes[0]).kind {
-                PassKind::Render => self.render(passes, encoder, &mut take)?,
-                PassKind::Compute => self.compute(passes[0], encoder, take(passes[0]))?,
-                PassKind::Copy | PassKind::Encoder => self.encode(passes[0], encoder, take(passes[0]))?,
+                PassKind::Render => self.render(step, passes, encoder, &mut bodies)?,
+                PassKind::Compute => self.compute(passes[0], encoder, bodies.next(passes[0]))?,
+                PassKind::Copy | PassKind::Encoder => {
+                    self.encode(passes[0], encoder, bodies.next(passes[0]))?
+                }
             }
             if self.pool.poison {
                 self.poison_discards(passes, encoder);
@@ -173,7 +174,7 @@ impl<'a> Recording<'a> {
         &'a self,
         id: PassId,
         encoder: &mut wgpu::CommandEncoder,
-        body: Body<'_>,
+        body: Option<&mut Body<'_>>,
     ) -> Result<(), Error> {
         let timestamps = self.timer.and_then(|timer| timer.step_queries(id, id));
         let timestamp_writes = timestamps.map(|(query_set, begin, end)| wgpu::ComputePassTimestampWrites {
@@ -182,19 +183,27 @@ impl<'a> Recording<'a> {
             end_of_pass_write_index: Some(end),
         });
         let label = Some(self.resolved.label(id));
-        let pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label, timestamp_writes });
-        let resources = Resources { recording: self, pass: id };
-        let mut context = ComputeContext { pass, resources };
+        let mut context = ComputeContext {
+            pass: encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label, timestamp_writes }),
+            resources: Resources { recording: self, pass: id },
+        };
         match body {
-            Body::Compute(body) => self.timed(id, || body(&mut context))?,
-            Body::ShaderPass(index) => self.timed(id, || shader_pass::dispatch(&mut context, index))?,
-            Body::None | Body::Render(_) | Body::Encoder(_) => {}
+            Some(Body::Compute(body)) => self.timed(id, || body(&mut context))?,
+            Some(Body::ShaderPass(index)) => {
+                self.timed(id, || shader_pass::dispatch(&mut context, *index))?;
+            }
+            _ => {}
         }
         Ok(())
     }
 
     /// Records a copy or encoder pass, between two timestamps where the device supports them in encoders.
-    fn encode(&'a self, id: PassId, encoder: &mut wgpu::CommandEncoder, body: Body<'_>) -> Result<(), Error> {
+    fn encode(
+        &'a self,
+        id: PassId,
+        encoder: &mut wgpu::CommandEncoder,
+        body: Option<&mut Body<'_>>,
+    ) -> Result<(), Error> {
         let queries = self.timer.and_then(|timer| timer.encoder_queries(id));
         if let Some((queries, begin)) = queries {
             encoder.write_timestamp(queries, begin);
@@ -202,7 +211,7 @@ impl<'a> Recording<'a> {
         encoder.push_debug_group(self.resolved.label(id));
         self.timed(id, || {
             record_copies(self, id, encoder)?;
-            if let Body::Encoder(body) = body {
+            if let Some(Body::Encoder(body)) = body {
                 let resources = Resources { recording: self, pass: id };
                 body(&mut EncoderContext { encoder, resources })?;
             }

@@ -1,9 +1,9 @@
 //! Recording a render step: one wgpu render pass for one pass of the frame, or for several that were merged.
 
-use super::attachments::{ColorAttachments, color_attachments, depth_attachment, targets};
+use super::attachments::{ColorAttachments, targets};
 use super::shader_pass;
 use crate::access::{Access, ClearValue, Contents};
-use crate::context::{Body, Recording, RenderContext, Resources};
+use crate::context::{Bodies, Body, Recording, RenderContext, Resources};
 use crate::declaration::ALL_OF_RESOURCE;
 use crate::desc::Extent;
 use crate::error::Error;
@@ -13,34 +13,35 @@ use crate::plan::{AccessPlan, AttachmentOps, LoadAction};
 use crate::subresource::{Aspect, Rect};
 
 impl<'a> Recording<'a> {
-    pub(super) fn render<'f>(
+    pub(super) fn render(
         &'a self,
+        step: usize,
         passes: &[PassId],
         encoder: &mut wgpu::CommandEncoder,
-        take: &mut impl FnMut(PassId) -> Body<'f>,
+        bodies: &mut Bodies<'_, '_>,
     ) -> Result<(), Error> {
         let (first, last) = (passes[0], passes[passes.len() - 1]);
-        let mut colors = ColorAttachments::new();
-        color_attachments(self, first, last, &mut colors)?;
-        let depth_stencil_attachment = depth_attachment(self, first, last)?;
+        let mut color_attachments = ColorAttachments::new();
+        self.add_colors(step, &mut color_attachments)?;
+        let depth_stencil_attachment = self.depth(step)?;
         let timestamps = self.timer.and_then(|timer| timer.step_queries(first, last));
         let timestamp_writes = timestamps.map(|(query_set, begin, end)| wgpu::RenderPassTimestampWrites {
             query_set,
             beginning_of_pass_write_index: Some(begin),
             end_of_pass_write_index: Some(end),
         });
-        let pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        let desc = wgpu::RenderPassDescriptor {
             label: Some(self.resolved.label(first)),
-            color_attachments: &colors,
+            color_attachments: &color_attachments,
             depth_stencil_attachment,
             timestamp_writes,
             occlusion_query_set: None,
             multiview_mask: None,
-        });
-        let mut context = RenderContext { pass, resources: Resources { recording: self, pass: first } };
+        };
+        let mut context = begin(encoder, &desc, Resources { recording: self, pass: first });
         for &id in passes {
             context.resources.pass = id;
-            self.record_pass(id, passes, &mut context, take(id))?;
+            self.record_pass(id, passes, &mut context, bodies.next(id))?;
         }
         Ok(())
     }
@@ -51,7 +52,7 @@ impl<'a> Recording<'a> {
         id: PassId,
         passes: &[PassId],
         context: &mut RenderContext<'_>,
-        body: Body<'_>,
+        body: Option<&mut Body<'_>>,
     ) -> Result<(), Error> {
         let several = passes.len() > 1;
         if several {
@@ -68,9 +69,9 @@ impl<'a> Recording<'a> {
             context.pass.begin_pipeline_statistics_query(queries, query);
         }
         match body {
-            Body::Render(body) => self.timed(id, || body(context))?,
-            Body::ShaderPass(index) => self.timed(id, || shader_pass::draw(context, index))?,
-            Body::None | Body::Compute(_) | Body::Encoder(_) => {}
+            Some(Body::Render(body)) => self.timed(id, || body(context))?,
+            Some(Body::ShaderPass(index)) => self.timed(id, || shader_pass::draw(context, *index))?,
+            _ => {}
         }
         if counted.is_some() {
             context.pass.end_pipeline_statistics_query();
@@ -157,6 +158,16 @@ impl<'a> Recording<'a> {
             Err(_) => Extent { width: 1, height: 1, depth_or_array_layers: 1 },
         }
     }
+}
+
+/// Begins a render pass. It is a separate function so that the pass, a kilobyte, is not copied into the context.
+#[inline(never)]
+fn begin<'a>(
+    encoder: &'a mut wgpu::CommandEncoder,
+    desc: &wgpu::RenderPassDescriptor<'_>,
+    resources: Resources<'a>,
+) -> RenderContext<'a> {
+    RenderContext { pass: encoder.begin_render_pass(desc), resources }
 }
 
 fn full_rect(size: Extent) -> Rect {

@@ -3,7 +3,7 @@
 use super::Executed;
 use super::record::prepare;
 use crate::compiled::Compiled;
-use crate::context::Body;
+use crate::context::Bodies;
 use crate::error::Error;
 use crate::graph::Graph;
 use crate::handle::PassId;
@@ -72,8 +72,7 @@ pub(super) fn record_steps(
     for (index, step) in compiled.plan.steps().enumerate() {
         let scope = checks.then(|| device.push_error_scope(wgpu::ErrorFilter::Validation));
         let mut encoder = encoder();
-        let take = |pass: PassId| std::mem::replace(&mut bodies[pass.index()], Body::None);
-        let recorded = recording.steps(index..index + 1, &mut encoder, take);
+        let recorded = recording.steps(index..index + 1, &mut encoder, Bodies::OfFrame(&mut bodies));
         let buffer = encoder.finish();
         let caught = scope.and_then(|scope| pollster::block_on(scope.pop()));
         recorded?;

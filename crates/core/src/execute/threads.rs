@@ -3,7 +3,7 @@
 use super::Executed;
 use super::record::prepare;
 use crate::compiled::Compiled;
-use crate::context::{Body, Recording};
+use crate::context::{Bodies, Body, Recording};
 use crate::error::Error;
 use crate::handle::PassId;
 use crate::pool::Pool;
@@ -74,10 +74,9 @@ fn split_steps<'f>(compiled: &Compiled<'_>, bodies: &mut [Body<'f>], threads: us
 
 fn record_range(
     recording: &Recording<'_>,
-    range: StepRange<'_>,
+    mut range: StepRange<'_>,
     mut encoder: wgpu::CommandEncoder,
 ) -> Result<wgpu::CommandBuffer, Error> {
-    let mut bodies = range.bodies.into_iter();
-    recording.steps(range.steps, &mut encoder, |_| bodies.next().unwrap_or(Body::None))?;
+    recording.steps(range.steps, &mut encoder, Bodies::InOrder(range.bodies.iter_mut()))?;
     Ok(encoder.finish())
 }

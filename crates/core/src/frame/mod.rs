@@ -124,9 +124,7 @@ impl<'f> Frame<'f> {
             return self.invalid_token(pass, version);
         }
         if self.is_stale(version) {
-            let location = format!("pass `{}`", self.decl.pass_path(pass));
-            let error = self.stale_read(location, version);
-            self.errors.push(error);
+            self.report_stale_read(pass, version);
         }
         self.add_access(pass, version, access, WriteMode::ReadOnly, subresource)
     }
@@ -145,13 +143,7 @@ impl<'f> Frame<'f> {
             return self.invalid_token(pass, *version);
         }
         if self.is_stale(*version) {
-            let error = Error::TwoWriters {
-                pass: self.decl.pass_path(pass),
-                resource: self.decl.resource_path(version.resource),
-                version: version.version,
-                writer: self.writer_after(*version),
-            };
-            self.errors.push(error);
+            self.report_two_writers(pass, *version);
         }
         let mode = self.write_mode(contents);
         let token = self.add_access(pass, *version, access, mode, subresource);
@@ -178,11 +170,29 @@ impl<'f> Frame<'f> {
         }
     }
 
+    #[cold]
+    fn report_stale_read(&mut self, pass: PassId, version: Version) {
+        let location = format!("pass `{}`", self.decl.pass_path(pass));
+        let error = self.stale_read(location, version);
+        self.errors.push(error);
+    }
+
+    #[cold]
+    fn report_two_writers(&mut self, pass: PassId, version: Version) {
+        self.errors.push(Error::TwoWriters {
+            pass: self.decl.pass_path(pass),
+            resource: self.decl.resource_path(version.resource),
+            version: version.version,
+            writer: self.writer_after(version),
+        });
+    }
+
     /// Returns a token for a handle of another frame. No pass resolves it.
+    #[cold]
     fn invalid_token(&mut self, pass: PassId, version: Version) -> Token {
         let location = format!("pass `{}`", self.decl.pass_path(pass));
         self.errors.push(Error::ForeignHandle { location });
-        Token { frame: version.frame, pass, resource: version.resource, access: u32::MAX }
+        Token::new(version.frame, u32::MAX)
     }
 
     pub(crate) fn pass_mut(&mut self, pass: PassId) -> &mut PassDecl {
@@ -198,6 +208,7 @@ impl<'f> Frame<'f> {
         }
     }
 
+    #[inline(always)]
     fn add_access(
         &mut self,
         pass: PassId,
@@ -221,10 +232,11 @@ impl<'f> Frame<'f> {
         if declared.attachment.is_none() && access.is_attachment() {
             declared.attachment = Some(resource);
         }
-        Token { frame: self.id, pass, resource, access: end - 1 }
+        Token::new(self.id, end - 1)
     }
 
     /// Adds a subresource, unless it is the full resource.
+    #[inline(never)]
     fn add_part(&mut self, pass: PassId, version: Version, subresource: Subresource) -> u32 {
         let resource = &mut self.decl.resources[version.resource.index()];
         if let Some(problem) = subresource.problem(&resource.desc) {

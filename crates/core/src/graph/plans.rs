@@ -17,6 +17,8 @@ pub struct PlanCounts {
     pub compiled: u64,
     /// Plans compiled from the analysis of a plan that differed only in sizes.
     pub resized: u64,
+    /// Plans taken from one that differed only in clear values.
+    pub cleared: u64,
     /// Plans reused from an equal frame.
     pub reused: u64,
 }
@@ -32,23 +34,33 @@ impl Plans {
     /// Returns the plan of a declaration, and replaces the declaration by memory for another.
     pub(crate) fn plan(&mut self, decl: &mut Declaration) -> Result<Arc<Plan>, Error> {
         let mut similar = None;
+        let mut other_clears = None;
         for (index, plan) in self.kept.iter().enumerate() {
+            // Plans with other clear values are the same but for these, so one is enough.
+            if other_clears.is_some() && plan.decl.clears != decl.clears {
+                continue;
+            }
             match plan.decl.similarity(decl) {
                 FrameSimilarity::Same => {
                     self.kept[..=index].rotate_right(1);
                     self.counts.reused += 1;
                     return Ok(self.kept[0].clone());
                 }
+                FrameSimilarity::OtherClears => other_clears = Some(plan),
                 FrameSimilarity::OtherSizes => similar = similar.or(Some(plan)),
                 FrameSimilarity::Other => {}
             }
         }
-        let plan = match similar {
-            Some(plan) => {
+        let plan = match (other_clears, similar) {
+            (Some(plan), _) => {
+                self.counts.cleared += 1;
+                compile::reclear(std::mem::take(decl), plan)?
+            }
+            (None, Some(plan)) => {
                 self.counts.resized += 1;
                 compile::resize(std::mem::take(decl), plan)?
             }
-            None => {
+            (None, None) => {
                 self.counts.compiled += 1;
                 compile::compile(std::mem::take(decl))?
             }

@@ -64,16 +64,33 @@ new_key_type! {
 #[derive(Default)]
 pub(crate) struct BindGroupCache {
     frame: u64,
+    /// No group was last used before this frame.
+    oldest_use: u64,
     groups: SlotMap<GroupKey, Cached>,
     by_hash: FxHashMap<u64, Vec<GroupKey>>,
 }
 
 impl BindGroupCache {
-    /// Starts a frame and drops what was last used before frame `oldest`.
-    pub(super) fn begin_frame(&mut self, frame: u64, oldest: u64) {
+    /// Starts a frame and drops what was last used before frame `oldest`. `kept` are the groups that passes have kept, and
+    /// the frames that used them last.
+    pub(super) fn begin_frame(
+        &mut self,
+        frame: u64,
+        oldest: u64,
+        kept: impl Iterator<Item = (GroupKey, u64)>,
+    ) {
         self.frame = frame;
+        if self.oldest_use >= oldest {
+            return;
+        }
+        for (key, used) in kept {
+            if let Some(cached) = self.groups.get_mut(key) {
+                cached.used = cached.used.max(used);
+            }
+        }
         let before = self.groups.len();
         self.groups.retain(|_, cached| cached.used >= oldest);
+        self.oldest_use = self.groups.values().map(|cached| cached.used).min().unwrap_or(frame);
         if self.groups.len() < before {
             let groups = &self.groups;
             self.by_hash.retain(|_, list| {
@@ -81,13 +98,6 @@ impl BindGroupCache {
                 !list.is_empty()
             });
         }
-    }
-
-    /// Returns a group that was found before, if it is still cached.
-    pub(crate) fn get(&mut self, key: GroupKey) -> Option<wgpu::BindGroup> {
-        let cached = self.groups.get_mut(key)?;
-        cached.used = self.frame;
-        Some(cached.group.clone())
     }
 
     /// Returns the group that binds `entries` to bindings 0, 1, 2 and so on, or creates it.

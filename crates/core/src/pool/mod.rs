@@ -1,5 +1,6 @@
 //! Objects that a graph keeps on one device from frame to frame.
 
+mod attachments;
 mod bind_group_cache;
 mod histories;
 mod pass_groups;
@@ -13,10 +14,11 @@ mod view_cache;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use attachments::DepthAttachment;
 pub(crate) use bind_group_cache::{BindGroupCache, BoundResource, GroupKey};
 pub(crate) use histories::Histories;
 pub(crate) use pass_groups::EntryKey;
-pub(crate) use poison::PoisonBuffer;
+pub(crate) use poison::{PoisonBuffer, poison_value};
 pub(crate) use resolved_plan::ResolvedPlan;
 pub(crate) use slots::{PhysicalResource, Slots};
 pub(crate) use staging::{Staging, aligned_range};
@@ -96,7 +98,8 @@ impl Pool {
         self.staging.end_frame(self.limits.idle_frames);
         let mut caches = self.caches();
         caches.views.begin_frame(self.frame, oldest);
-        caches.bind_groups.begin_frame(self.frame, oldest);
+        let kept = self.resolved_plans.iter().flat_map(ResolvedPlan::kept_groups);
+        caches.bind_groups.begin_frame(self.frame, oldest, kept);
         caches.clears.begin_frame(self.frame, oldest);
         caches.pipelines.begin_frame(self.frame, oldest);
         drop(caches);

@@ -15,7 +15,9 @@ pub(crate) struct PassGroups(Vec<[OnceLock<Box<PassGroup>>; GROUPS_PER_PASS]>);
 struct PassGroup {
     layout: wgpu::BindGroupLayout,
     entries: Vec<EntryKey>,
-    group: GroupKey,
+    group: wgpu::BindGroup,
+    /// The group in the cache.
+    key: GroupKey,
 }
 
 /// Identifies what an entry bound.
@@ -38,10 +40,15 @@ impl PassGroups {
         pass: PassId,
         layout: &wgpu::BindGroupLayout,
         same: impl Fn(&[EntryKey]) -> bool,
-    ) -> Option<GroupKey> {
+    ) -> Option<&wgpu::BindGroup> {
         let groups = self.0[pass.index()].iter();
         let mut kept = groups.map_while(|group| Some(&**group.get()?));
-        kept.find(|group| group.layout == *layout && same(&group.entries)).map(|group| group.group)
+        kept.find(|group| group.layout == *layout && same(&group.entries)).map(|group| &group.group)
+    }
+
+    /// Returns the groups in the cache.
+    pub(super) fn keys(&self) -> impl Iterator<Item = GroupKey> {
+        self.0.iter().flatten().filter_map(|group| Some(group.get()?.key))
     }
 
     /// Keeps a group for the pass, if there is space and all of its entries have keys.
@@ -50,13 +57,14 @@ impl PassGroups {
         pass: PassId,
         layout: &wgpu::BindGroupLayout,
         entries: impl FnOnce() -> Option<Vec<EntryKey>>,
-        group: GroupKey,
+        (key, group): (GroupKey, &wgpu::BindGroup),
     ) {
         let mut groups = self.0[pass.index()].iter();
         if let Some(free) = groups.find(|group| group.get().is_none())
             && let Some(entries) = entries()
         {
-            free.get_or_init(|| Box::new(PassGroup { layout: layout.clone(), entries, group }));
+            let (layout, group) = (layout.clone(), group.clone());
+            free.get_or_init(|| Box::new(PassGroup { layout, entries, group, key }));
         }
     }
 }

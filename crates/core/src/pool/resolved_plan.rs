@@ -1,5 +1,7 @@
 //! The physical objects of a plan.
 
+use super::attachments::Attachments;
+use super::bind_group_cache::GroupKey;
 use super::pass_groups::PassGroups;
 use super::poison::with_fill_usage;
 use super::slots::{PhysicalResource, SlotKey};
@@ -29,6 +31,7 @@ pub(crate) struct ResolvedPlan {
     pub(crate) views: Vec<Option<wgpu::TextureView>>,
     /// Accesses of attachments whose objects change from frame to frame.
     changing_attachments: Vec<u32>,
+    pub(crate) attachments: Attachments,
     labels: Labels,
     /// Present from the second frame on.
     pub(crate) pass_groups: Option<PassGroups>,
@@ -42,8 +45,13 @@ impl ResolvedPlan {
         device: &wgpu::Device,
         frame: u64,
     ) -> Result<Self, Error> {
-        if let Some(index) = pool.resolved_plans.iter().position(|known| Arc::ptr_eq(&known.plan, plan)) {
+        let is_same = |known: &Self| known.plan.structure.is_same(plan.structure);
+        if let Some(index) = pool.resolved_plans.iter().position(is_same) {
             let mut known = pool.resolved_plans.remove(index);
+            if !Arc::ptr_eq(&known.plan, plan) {
+                known.plan = plan.clone();
+                known.attachments = Attachments::new(plan, pool.poison);
+            }
             if frame - known.frame > pool.limits.idle_frames.into() {
                 known.pass_groups = None;
             }
@@ -74,6 +82,7 @@ impl ResolvedPlan {
             objects,
             views: vec![None; plan.decl.accesses.len()],
             changing_attachments: Vec::new(),
+            attachments: Attachments::new(plan, pool.poison),
             labels: Labels::new(plan),
             pass_groups: None,
         };
@@ -135,6 +144,11 @@ impl ResolvedPlan {
         }
         pool.resolved_plans.insert(0, self);
         pool.resolved_plans.truncate(MAX_KEPT_PLANS);
+    }
+
+    /// Returns the bind groups that passes have kept, and the frame that used them last.
+    pub(super) fn kept_groups(&self) -> impl Iterator<Item = (GroupKey, u64)> {
+        self.pass_groups.iter().flat_map(PassGroups::keys).map(|key| (key, self.frame))
     }
 
     pub(crate) fn label(&self, pass: PassId) -> &str {

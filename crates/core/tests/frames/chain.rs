@@ -87,12 +87,10 @@ impl Chain {
                 handles.push(frame.create_texture(&self.textures[declared.target], desc()));
             }
             let mut pass = frame.render_pass(&declared.name);
-            let mut first = None;
-            let tokens = std::array::from_fn(|at| {
-                let token = declared.samples.get(at).map(|&texture| pass.sample(&handles[texture])).or(first);
-                first = first.or(token);
-                token.expect("a pass samples at least one texture")
-            });
+            let mut tokens = [pass.sample(&handles[declared.samples[0]]); FAN_IN];
+            for (token, &texture) in tokens.iter_mut().zip(&declared.samples).skip(1) {
+                *token = pass.sample(&handles[texture]);
+            }
             pass.color(
                 &mut handles[declared.target],
                 if declared.clears { clear } else { Contents::Preserve },

@@ -82,18 +82,19 @@ fn a_token_of_another_pass_does_not_resolve() {
     let mut a = color(&mut frame, "a");
     let mut first = frame.render_pass("first");
     let token = first.color(&mut a, BLACK);
+    let first = first.id();
     let mut second = frame.compute_pass("second");
     second.keep();
     let second = second.id();
     frame.export_texture(&a);
-    let id = token.0.frame;
+    let id = frame.id();
     let plan = plan(frame);
-    assert!(plan.resolve(id, token.0.pass, token.0).is_ok());
+    assert!(plan.resolve(id, first, token.0).is_ok());
     let text = plan.resolve(id, second, token.0).unwrap_err().to_string();
     assert!(text.contains("`second` uses `a` without declaring the access"), "{text}");
     assert!(text.contains("belongs to `first`"), "{text}");
     assert!(text.contains("declare the access on `second`"), "{text}");
-    assert!(matches!(plan.resolve(id + 1, token.0.pass, token.0), Err(Error::ForeignHandle { .. })));
+    assert!(matches!(plan.resolve(id + 1, first, token.0), Err(Error::ForeignHandle { .. })));
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Plans found again.
 
 use super::helpers::{BLACK, filter};
-use crate::{ClearValue, Contents, Format, Frame, Graph, PlanCounts, TextureDesc};
+use crate::{ClearValue, Contents, Error, Format, Frame, Graph, PlanCounts, TextureDesc};
 
 /// Draws, then filters, at a size.
 fn declare(frame: &mut Frame<'_>, name: &str, side: u32, contents: Contents) {
@@ -23,7 +23,7 @@ fn equal_frames_share_a_plan() {
     let first = compile(&mut graph, "a", 64, BLACK);
     let second = compile(&mut graph, "a", 64, BLACK);
     assert!(std::sync::Arc::ptr_eq(&first, &second));
-    assert_eq!(graph.plan_counts(), PlanCounts { compiled: 1, resized: 0, reused: 1 });
+    assert_eq!(graph.plan_counts(), PlanCounts { compiled: 1, reused: 1, ..Default::default() });
 }
 
 #[test]
@@ -31,10 +31,27 @@ fn a_change_of_size_only_is_not_a_full_compile() {
     let mut graph = Graph::new();
     compile(&mut graph, "a", 64, BLACK);
     let resized = compile(&mut graph, "a", 128, BLACK);
-    assert_eq!(graph.plan_counts(), PlanCounts { compiled: 1, resized: 1, reused: 0 });
+    assert_eq!(graph.plan_counts(), PlanCounts { compiled: 1, resized: 1, ..Default::default() });
     let mut frame = Frame::new();
     declare(&mut frame, "a", 128, BLACK);
     assert_eq!(*resized, frame.compile().unwrap().into_plan(), "the plan of a full compile");
+}
+
+#[test]
+fn a_change_of_clear_values_only_is_not_a_full_compile() {
+    let mut graph = Graph::new();
+    let white = Contents::Clear(ClearValue::Color([1.0; 4]));
+    compile(&mut graph, "a", 64, BLACK);
+    let cleared = compile(&mut graph, "a", 64, white);
+    assert_eq!(graph.plan_counts(), PlanCounts { compiled: 1, cleared: 1, ..Default::default() });
+    let mut frame = Frame::new();
+    declare(&mut frame, "a", 64, white);
+    assert_eq!(*cleared, frame.compile().unwrap().into_plan(), "the plan of a full compile");
+    let mut frame = graph.frame();
+    declare(&mut frame, "a", 64, Contents::Clear(ClearValue::Depth(1.0)));
+    assert!(matches!(graph.compile(frame), Err(Error::Clear { .. })));
+    compile(&mut graph, "a", 64, white);
+    assert_eq!(graph.plan_counts().reused, 1);
 }
 
 #[test]
@@ -42,9 +59,9 @@ fn any_other_change_is_a_full_compile() {
     let mut graph = Graph::new();
     compile(&mut graph, "a", 64, BLACK);
     compile(&mut graph, "b", 64, BLACK);
-    compile(&mut graph, "b", 64, Contents::Clear(ClearValue::Color([1.0; 4])));
-    compile(&mut graph, "b", 64, Contents::Overwrite);
-    assert_eq!(graph.plan_counts(), PlanCounts { compiled: 4, resized: 0, reused: 0 });
+    compile(&mut graph, "b", 32, Contents::Clear(ClearValue::Color([1.0; 4])));
+    compile(&mut graph, "b", 32, Contents::Overwrite);
+    assert_eq!(graph.plan_counts(), PlanCounts { compiled: 4, ..Default::default() });
 }
 
 #[test]
@@ -55,7 +72,7 @@ fn frames_that_alternate_keep_their_plans() {
             compile(&mut graph, name, 64, BLACK);
         }
     }
-    assert_eq!(graph.plan_counts(), PlanCounts { compiled: 4, resized: 0, reused: 8 });
+    assert_eq!(graph.plan_counts(), PlanCounts { compiled: 4, reused: 8, ..Default::default() });
 }
 
 #[test]

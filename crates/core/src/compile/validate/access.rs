@@ -16,17 +16,22 @@ pub(super) fn check(decl: &Declaration, pass: PassId, access: &AccessDecl) -> Re
         let access = access.access.as_str();
         return Err(Error::Format { pass, resource, access, format: desc.format, problem });
     }
-    if let WriteMode::Clear(clear) = access.contents
-        && let Some(problem) = clear_problem(access.access, decl.clears[clear as usize])
-    {
-        let (pass, resource) = names();
-        return Err(Error::Clear { pass, resource, problem });
-    }
+    check_clear(decl, pass, access)?;
     if matches!(resource.origin, Origin::Imported { .. })
         && let Some(needed) = missing_usage(decl, access)
     {
         let (pass, resource) = names();
         return Err(Error::ImportUsage { pass, resource, access: access.access.as_str(), needed });
+    }
+    Ok(())
+}
+
+pub(super) fn check_clear(decl: &Declaration, pass: PassId, access: &AccessDecl) -> Result<(), Error> {
+    if let WriteMode::Clear(clear) = access.contents
+        && let Some(problem) = clear_problem(access.access, decl.clears[clear as usize])
+    {
+        let (pass, resource) = (decl.pass_path(pass), decl.resource_path(access.resource));
+        return Err(Error::Clear { pass, resource, problem });
     }
     Ok(())
 }

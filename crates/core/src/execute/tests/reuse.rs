@@ -3,11 +3,17 @@
 use super::gpu::{Gpu, NUMBERS, square};
 use crate::{Bind, Contents, Frame, Graph, PoolLimits, TextureExport};
 
-/// A chain of textures, each drawn from the previous one, the last of them exported.
-fn chain<'f>(graph: &Graph, draw: &'f super::Draw, side: u32, length: u32) -> (Frame<'f>, TextureExport) {
+/// A chain of textures, the first cleared to a value, each other drawn from the previous one, the last of them exported.
+fn chain<'f>(
+    graph: &Graph,
+    draw: &'f super::Draw,
+    first: u32,
+    side: u32,
+    length: u32,
+) -> (Frame<'f>, TextureExport) {
     let mut frame = graph.frame();
     let mut last = frame.create_texture("first", square(side));
-    frame.render_pass("first").color(&mut last, Contents::clear_color([1.0, 0.0, 0.0, 0.0]));
+    frame.render_pass("first").color(&mut last, Contents::clear_color([first.into(), 0.0, 0.0, 0.0]));
     for _ in 1..length {
         let mut next = frame.create_texture("next", square(side));
         let mut pass = frame.render_pass("next");
@@ -37,10 +43,15 @@ impl<'g> Chains<'g> {
 
     /// Runs a frame, checks its numbers, and returns its export.
     fn run(&mut self, side: u32, length: u32) -> wgpu::Texture {
-        let (frame, export) = chain(&self.graph, &self.draw, side, length);
+        self.run_cleared(1, side, length)
+    }
+
+    /// Does the same with another value of the first texture.
+    fn run_cleared(&mut self, first: u32, side: u32, length: u32) -> wgpu::Texture {
+        let (frame, export) = chain(&self.graph, &self.draw, first, side, length);
         let executed = self.gpu.run(&mut self.graph, frame);
         let texture = executed.texture(export).unwrap().clone();
-        self.gpu.assert_filled(&texture, length);
+        self.gpu.assert_filled(&texture, first + length - 1);
         texture
     }
 }
@@ -60,6 +71,20 @@ fn equal_frames_get_the_same_textures_and_bind_groups() {
         }
         assert_eq!((chains.graph.bytes(), groups(&chains.graph)), (2 * bytes(16), 2));
         assert_eq!(chains.graph.plan_counts().reused, 20);
+    }
+}
+
+#[test]
+fn frames_with_other_clear_values_share_objects_and_are_cleared_to_them() {
+    for gpu in Gpu::all() {
+        let mut chains = Chains::new(&gpu);
+        let first = chains.run_cleared(1, 16, 6);
+        for value in [2, 3, 1, 2, 7, 7, 1] {
+            assert_eq!(chains.run_cleared(value, 16, 6), first);
+        }
+        assert_eq!(groups(&chains.graph), 2);
+        let counts = chains.graph.plan_counts();
+        assert_eq!((counts.compiled, counts.cleared, counts.reused), (1, 3, 4));
     }
 }
 
@@ -176,7 +201,7 @@ fn two_frames_in_flight_share_textures_without_interference() {
         let mut commands = Vec::new();
         let mut backs = Vec::new();
         for length in [3, 5, 3, 5] {
-            let (frame, export) = chain(&chains.graph, &chains.draw, 16, length);
+            let (frame, export) = chain(&chains.graph, &chains.draw, 1, 16, length);
             let compiled = chains.graph.compile(frame).unwrap();
             let mut encoder = gpu.encoder();
             let executed = compiled.execute(&mut chains.graph, &gpu.device, &mut encoder).unwrap();

@@ -22,7 +22,8 @@ pub(super) use random_calls::random_calls_from_bytes;
 pub(super) use source::Source;
 
 use crate::{
-    Access, Aspect, Contents, Options, Origin, PassKind, Rect, ResourceDesc, Subresource, TextureDesc,
+    Access, Aspect, ClearValue, Contents, Options, Origin, PassKind, Rect, ResourceDesc, Subresource,
+    TextureDesc,
 };
 use std::fmt::{Display, Formatter};
 use wgpu_types::TextureDimension;
@@ -163,6 +164,23 @@ impl Spec {
             }
         }
         scaled
+    }
+
+    /// Returns the same frame with other values in place of those that attachments are cleared to.
+    pub(super) fn with_other_clears(&self) -> Self {
+        let mut other = self.clone();
+        for access in other.passes.iter_mut().flat_map(|pass| &mut pass.accesses) {
+            if let Some(Contents::Clear(value)) = &mut access.contents {
+                *value = match *value {
+                    ClearValue::Color(color) => ClearValue::Color(color.map(|channel| channel + 8.0)),
+                    ClearValue::Depth(depth) => ClearValue::Depth(0.5 * depth + 0.25),
+                    ClearValue::DepthStencil(depth, stencil) => {
+                        ClearValue::DepthStencil(0.5 * depth + 0.25, stencil)
+                    }
+                };
+            }
+        }
+        other
     }
 
     pub(super) fn is_exported(&self, resource: usize) -> bool {
