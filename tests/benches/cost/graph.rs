@@ -43,6 +43,7 @@ impl<'c> Declared<'c> {
             }
             Source::Real => real::declare(&mut frame, &BYTES, red),
         }
+        self.change.declare(&mut frame, self.number);
         let start = Instant::now();
         let compiled = black_box(self.graph.compile(frame).expect("the frame is valid"));
         let time = start.elapsed();
@@ -94,6 +95,7 @@ impl<'d> Whole<'d> {
                 Ok(())
             });
         });
+        self.change.declare(&mut frame, self.number);
         let compiled = self.graph.compile(frame).expect("the frame is valid");
         if self.threads > 1 {
             let executed = compiled.execute_on_threads(&mut self.graph, &drawing.device, self.threads);
