@@ -81,6 +81,7 @@ impl Token {
     }
 
     /// Returns whether the token is of this frame.
+    #[cfg(any(feature = "gpu", test))]
     pub(crate) fn is_of(self, frame: u64) -> bool {
         self.frame == frame as u32
     }

@@ -50,7 +50,7 @@ pub struct Plan {
 /// Identifies plans that differ only in clear values: the same objects fit them. It is not part of what a plan says, so plans
 /// with different ones can be equal.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct StructureId(u64);
+pub(crate) struct StructureId(#[cfg_attr(not(feature = "gpu"), expect(dead_code))] u64);
 
 impl StructureId {
     /// Returns a new one.
@@ -59,6 +59,7 @@ impl StructureId {
         Self(NEXT.fetch_add(1, Ordering::Relaxed))
     }
 
+    #[cfg(feature = "gpu")]
     pub(crate) fn is_same(self, other: Self) -> bool {
         self.0 == other.0
     }

@@ -87,7 +87,7 @@ impl<'f> Frame<'f> {
         self.errors.push(error);
     }
 
-    #[cfg(feature = "gpu")]
+    #[cfg(any(feature = "gpu", test))]
     pub(crate) fn id(&self) -> u64 {
         self.id
     }
