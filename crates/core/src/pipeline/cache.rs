@@ -216,9 +216,9 @@ fn render_pipeline(
     module: &wgpu::ShaderModule,
     targets: &PipelineTargets,
 ) -> wgpu::RenderPipeline {
-    let state = |&(format, blend): &(_, _)| wgpu::ColorTargetState {
+    let state = |&(format, blend): &(Format, Option<wgpu::BlendState>)| wgpu::ColorTargetState {
         format,
-        blend,
+        blend: blend.or_else(|| replacing_blend(device, format, targets.depth)),
         write_mask: wgpu::ColorWrites::ALL,
     };
     let color_states: Vec<_> = targets.colors.iter().map(|color| Some(state(color))).collect();
@@ -241,6 +241,19 @@ fn render_pipeline(
         multiview_mask: None,
         cache: None,
     })
+}
+
+/// Returns blending that replaces the target, where that makes first frames faster: Mesa's software driver compiles a shader
+/// for whole tiles and again for partial ones, but only once if it is blended.
+fn replacing_blend(
+    device: &wgpu::Device,
+    format: Format,
+    depth: Option<DepthTarget>,
+) -> Option<wgpu::BlendState> {
+    let is_compiled_twice = depth.is_none() && device.adapter_info().driver == "llvmpipe";
+    let flags = || format.guaranteed_format_features(device.features()).flags;
+    let is_blendable = is_compiled_twice && flags().contains(wgpu::TextureFormatFeatureFlags::BLENDABLE);
+    is_blendable.then_some(wgpu::BlendState::REPLACE)
 }
 
 fn depth_state(depth: DepthTarget) -> wgpu::DepthStencilState {
