@@ -5,8 +5,8 @@ use std::time::{Duration, Instant};
 /// Runs one frame and returns its measured time.
 pub(crate) type Workload<'s> = Box<dyn FnMut() -> Duration + 's>;
 
-/// Number of rounds.
-const ROUNDS: usize = 151;
+/// Number of rounds of exact figures.
+pub(crate) const ROUNDS: usize = 151;
 /// Approximate duration of a sample.
 const SAMPLE_DURATION: Duration = Duration::from_millis(2);
 
@@ -28,11 +28,16 @@ pub(crate) fn timed<'s>(mut frame: impl FnMut() + 's) -> Workload<'s> {
     })
 }
 
-/// Measures the workloads alternately.
-pub(crate) fn measure<const N: usize>(mut workloads: [Workload<'_>; N]) -> [Measured; N] {
+/// Measures the workloads alternately, in [`ROUNDS`].
+pub(crate) fn measure<const N: usize>(workloads: [Workload<'_>; N]) -> [Measured; N] {
+    measure_in(ROUNDS, workloads)
+}
+
+/// Measures the workloads alternately, in `count` rounds.
+pub(crate) fn measure_in<const N: usize>(count: usize, mut workloads: [Workload<'_>; N]) -> [Measured; N] {
     let frames = workloads.each_mut().map(|workload| frames(workload));
-    let mut rounds: Vec<[f64; N]> = Vec::with_capacity(ROUNDS);
-    for round in 0..ROUNDS {
+    let mut rounds: Vec<[f64; N]> = Vec::with_capacity(count);
+    for round in 0..count {
         let mut seconds = [0.0; N];
         for turn in 0..N {
             // Every other round is reversed, so that each workload follows each other one.

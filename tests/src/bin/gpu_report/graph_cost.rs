@@ -10,15 +10,19 @@ use crate::frames::Change;
 use crate::frames::chain::Chain;
 use crate::graph::Whole;
 use crate::hand::Hand;
-use crate::measure::{Workload, measure as measure_workloads};
+use crate::measure::{ROUNDS, Workload, measure_in};
+
+/// Number of rounds on software drivers, which draw a thousand passes in seconds.
+const SOFTWARE_ROUNDS: usize = 3;
 
 /// Measures frames of 10, 100 and 1,000 passes.
-pub(crate) fn measure(gpu: &Gpu) -> Result<Vec<GraphCost>, String> {
+pub(crate) fn measure(gpu: &Gpu, software: bool) -> Result<Vec<GraphCost>, String> {
     let drawing = Drawing::new(gpu.device.clone(), gpu.queue.clone());
-    Ok([10, 100, 1_000].into_iter().map(|length| measure_chain(&drawing, length)).collect())
+    let rounds = if software { SOFTWARE_ROUNDS } else { ROUNDS };
+    Ok([10, 100, 1_000].into_iter().map(|length| measure_chain(&drawing, length, rounds)).collect())
 }
 
-fn measure_chain(drawing: &Drawing, length: usize) -> GraphCost {
+fn measure_chain(drawing: &Drawing, length: usize, rounds: usize) -> GraphCost {
     let chain = Chain::new(length);
     let hand = Hand::new(drawing, &chain);
     let [unchanged, changed] = [Change::Never, Change::Pass].map(|change| {
@@ -26,7 +30,7 @@ fn measure_chain(drawing: &Drawing, length: usize) -> GraphCost {
         waited(drawing, move || whole.frame())
     });
     let workloads = [waited(drawing, move || hand.frame()), unchanged, changed];
-    let [hand, unchanged, changed] = measure_workloads(workloads);
+    let [hand, unchanged, changed] = measure_in(rounds, workloads);
     GraphCost {
         passes: length,
         by_hand_us: hand.seconds * 1e6,

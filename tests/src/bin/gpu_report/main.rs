@@ -67,7 +67,7 @@ fn run(arguments: &Arguments, gpu: &Gpu) -> Result<(), String> {
     let software = gpu.adapter.device_type == DeviceType::Cpu;
     let mut report = Report::new(adapter, arguments.size_px);
     // Written after each part: what was measured stays if a later part fails.
-    timed("graph", || graph_cost::measure(gpu).map(|costs| report.graph = costs))?;
+    timed("graph", || graph_cost::measure(gpu, software).map(|costs| report.graph = costs))?;
     write(&report, &arguments.output)?;
     for scene in scenes::sources(arguments, software)? {
         let name = scene.name.clone();
