@@ -128,17 +128,20 @@ fn drawing() -> Drawing {
 /// Runs frames of one kind.
 fn run_frames(kind: &str, passes: usize, frames: usize) {
     let (drawing, chain) = (drawing(), Chain::new(passes));
-    let change = match kind {
-        "unchanged" => Change::Never,
-        "clear" => Change::Clear,
-        "pass" => Change::Pass,
-        _ => {
-            let hand = Hand::new(&drawing, &chain);
-            return (0..frames).for_each(|_| hand.frame());
-        }
+    let whole = |change| {
+        let mut whole = Whole::new(&drawing, &chain, change);
+        (0..frames).for_each(|_| whole.frame());
     };
-    let mut whole = Whole::new(&drawing, &chain, change);
-    (0..frames).for_each(|_| whole.frame());
+    match kind {
+        "hand" => {
+            let hand = Hand::new(&drawing, &chain);
+            (0..frames).for_each(|_| hand.frame());
+        }
+        "unchanged" => whole(Change::Never),
+        "clear" => whole(Change::Clear),
+        "pass" => whole(Change::Pass),
+        _ => println!("unknown KIND `{kind}`; allowed: hand, unchanged, clear, pass"),
+    }
 }
 
 fn by_hand(table: &mut Table) {

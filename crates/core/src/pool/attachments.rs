@@ -38,8 +38,8 @@ pub(crate) struct DepthAttachment {
 
 impl Attachments {
     pub(super) fn new(plan: &Plan, poison: bool) -> Self {
-        let (mut colors, mut steps) = (Vec::with_capacity(plan.steps.len()), Vec::new());
-        steps.reserve_exact(plan.steps.len());
+        let count = plan.steps.len();
+        let (mut colors, mut steps) = (Vec::with_capacity(count), Vec::with_capacity(count));
         for &(start, end) in &plan.steps {
             let passes = &plan.order[start as usize..end as usize];
             let ends = (passes[0], passes[passes.len() - 1]);
