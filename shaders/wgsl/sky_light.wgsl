@@ -26,12 +26,10 @@ struct Sky {
     backdrop: u32,
     // Radiance of the sun's disc.
     disc: vec3f,
-    // 1: there is a plane that receives shadows.
-    has_ground: u32,
-    // Radiance of the ground in full light.
-    ground: vec3f,
     // Height of the plane, metres relative to the frame's origin.
     ground_height: f32,
+    // Radiance of the ground in full light.
+    ground: vec3f,
     ground_albedo: vec3f,
 }
 
@@ -46,6 +44,8 @@ const UNOCCLUDED: f32 = 0.04;
 const HORIZON_HAZE: f32 = 7.0;
 
 const HAS_BACKGROUND: bool = true;
+// Whether there is a plane that receives shadows.
+const HAS_GROUND: bool = true;
 
 @group(0) @binding(ENVIRONMENT) var<uniform> sky: Sky;
 
@@ -153,13 +153,15 @@ fn background_along(ray: ViewRay, pixel: vec2f, dome: Dome) -> vec4f {
     let shows_sky = sky.backdrop == BACKDROP_SKY;
     var ground = sky.ground;
     var darkened = 0.0;
-    let distance = (sky.ground_height - ray.start.y) / direction.y;
     let share = ground_share(direction.y);
-    if sky.has_ground == 1u && direction.y < 0.0 && distance > 0.0 {
-        let light = ground_light(ray.start + direction * distance, pixel, dome);
-        ground = light[0];
-        let luminance = vec3f(0.2126, 0.7152, 0.0722);
-        darkened = share * (1.0 - dot(light[0], luminance) / max(dot(light[1], luminance), 1e-9));
+    if HAS_GROUND {
+        let distance = (sky.ground_height - ray.start.y) / direction.y;
+        if direction.y < 0.0 && distance > 0.0 {
+            let light = ground_light(ray.start + direction * distance, pixel, dome);
+            ground = light[0];
+            let luminance = vec3f(0.2126, 0.7152, 0.0722);
+            darkened = share * (1.0 - dot(light[0], luminance) / max(dot(light[1], luminance), 1e-9));
+        }
     }
     if !shows_sky {
         return vec4f(0.0, 0.0, 0.0, saturate((darkened - UNOCCLUDED) / (1.0 - UNOCCLUDED)));

@@ -49,6 +49,8 @@ pub struct LitPipelines {
     shader: wgpu::ShaderModule,
     layout: wgpu::PipelineLayout,
     key: LitKey,
+    /// Whether opaque draws are blended too, which does not change them: their alpha is 1.
+    blends_all: bool,
     /// The pipelines by [`PipelineKey::index`].
     pipelines: Vec<OnceLock<wgpu::RenderPipeline>>,
 }
@@ -56,7 +58,10 @@ pub struct LitPipelines {
 impl LitPipelines {
     /// Returns the pipeline for draws with a key. Masked draws have that of opaque ones: the material says where there are holes.
     pub fn get(&self, key: PipelineKey) -> DrawPipeline<'_> {
-        let alpha = if key.alpha == AlphaKey::Mask { AlphaKey::Opaque } else { key.alpha };
+        let alpha = match key.alpha {
+            AlphaKey::Opaque | AlphaKey::Mask if !self.blends_all => AlphaKey::Opaque,
+            _ => AlphaKey::Blend,
+        };
         let key = PipelineKey { alpha, ..key };
         let create = || self.builder.pipeline(&self.shader, &self.layout, self.key, key);
         DrawPipeline { pipeline: self.pipelines[key.index()].get_or_init(create), material: MaterialUse::All }
@@ -151,7 +156,13 @@ impl Forward {
         let builder = self.builder.clone();
         let by_material = PipelineKey::all().map(|_| OnceLock::new()).collect();
         let layout = builder.layout(key.bindings);
-        let pipelines = Arc::new(LitPipelines { builder, shader, layout, key, pipelines: by_material });
+        // Software adapters compile blending into the shader, so with one kind of blending they compile one shader.
+        let blends_all = key.materials.blends()
+            && !key.writes_depth
+            && builder.target.output == LitOutput::Light
+            && builder.device.adapter_info().device_type == wgpu::DeviceType::Cpu;
+        let pipelines =
+            Arc::new(LitPipelines { builder, shader, layout, key, blends_all, pipelines: by_material });
         cache.insert(key, pipelines.clone());
         Ok(pipelines)
     }
@@ -220,7 +231,7 @@ impl Forward {
             return Ok(());
         }
         let (variant, debug_light) = self.builder.target.variant(shadows);
-        let bindings = view.optional_bindings();
+        let bindings = view.optional_bindings().without_ground();
         let materials = geometry.scene.material_features();
         let pipelines =
             self.pipelines_for(LitKey { variant, debug_light, writes_depth: false, bindings, materials })?;
@@ -254,11 +265,11 @@ impl Forward {
     ) -> Result<Texture, Error> {
         let (variant, debug_light) = self.builder.target.variant(shadows);
         let writes_depth = matches!(depth, Depth::Written(_));
-        let bindings = view.optional_bindings();
+        let background_pipeline = self.background(variant, view.optional_bindings())?;
+        let bindings = view.optional_bindings().without_ground();
         let materials = geometry.scene.material_features();
         let pipelines =
             self.pipelines_for(LitKey { variant, debug_light, writes_depth, bindings, materials })?;
-        let background_pipeline = self.background(variant, bindings)?;
         let [width, height] = geometry.size_px;
         let (texture, pass) = match self.builder.target.output {
             LitOutput::Surface => ("surfaces", "surfaces"),

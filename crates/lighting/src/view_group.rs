@@ -15,6 +15,8 @@ pub(crate) struct OptionalBindings {
     occlusion: bool,
     /// The sky.
     pub(crate) sky: bool,
+    /// Whether the background has a ground below the sky; its height is bound with the sky.
+    ground: bool,
 }
 
 impl OptionalBindings {
@@ -23,9 +25,21 @@ impl OptionalBindings {
     /// Returns the bindings with an [`index`](Self::index).
     fn from_index(index: usize) -> Self {
         let lights = [LightBinding::Storage, LightBinding::Uniform, LightBinding::Sun][index / 8];
-        Self { lights, clusters: index & 1 != 0, occlusion: index & 2 != 0, sky: index & 4 != 0 }
+        Self {
+            lights,
+            clusters: index & 1 != 0,
+            occlusion: index & 2 != 0,
+            sky: index & 4 != 0,
+            ground: false,
+        }
     }
 
+    /// Returns the same bindings for passes that draw no background.
+    pub(crate) fn without_ground(self) -> Self {
+        Self { ground: false, ..self }
+    }
+
+    /// Returns the number of the layout.
     pub(crate) fn index(self) -> usize {
         let flags = [self.clusters, self.occlusion, self.sky].into_iter().zip([1, 2, 4]);
         flags.map(|(exists, bit)| usize::from(exists) * bit).sum::<usize>() + 8 * self.lights as usize
@@ -83,7 +97,8 @@ impl OptionalBindings {
             add(&OCCLUDED, "OCCLUSION");
         }
         if self.sky {
-            add(&SKY_LIGHT, "ENVIRONMENT");
+            let has_ground = format!("HAS_GROUND: bool = {}", self.ground);
+            add(&SKY_LIGHT.with_value("HAS_GROUND: bool = true", &has_ground), "ENVIRONMENT");
         }
         all
     }
@@ -120,6 +135,7 @@ impl ViewBuffers {
             clusters: self.clusters.is_some(),
             occlusion: self.occlusion.is_some(),
             sky: self.sky.is_some(),
+            ground: self.ground_height.is_some(),
         }
     }
 

@@ -27,6 +27,14 @@ fn optional_features(adapter: &wgpu::AdapterInfo) -> wgpu::Features {
     }
 }
 
+/// Returns small blocks of memory for software adapters: some of them clear each block when it is allocated.
+fn memory_hints(adapter: &wgpu::AdapterInfo) -> wgpu::MemoryHints {
+    match adapter.device_type {
+        wgpu::DeviceType::Cpu => wgpu::MemoryHints::MemoryUsage,
+        _ => wgpu::MemoryHints::Performance,
+    }
+}
+
 /// A device with its queue and adapter.
 pub struct Gpu {
     /// The device.
@@ -100,6 +108,7 @@ impl Gpu {
             label: Some("shadowgraph"),
             required_features: adapter.features() & optional_features(&info),
             required_limits: limits,
+            memory_hints: memory_hints(&info),
             ..Default::default()
         }));
         let (device, queue) = device

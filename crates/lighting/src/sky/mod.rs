@@ -49,11 +49,11 @@ struct GpuSky {
     to_sun: Vec3,
     backdrop: u32,
     disc: Vec3,
-    has_ground: u32,
-    ground: Vec3,
     ground_height: f32,
+    ground: Vec3,
+    padding0: u32,
     ground_albedo: Vec3,
-    padding: u32,
+    padding1: u32,
 }
 
 /// The light of a sky: its radiance in every direction, and the irradiance of surfaces.
@@ -108,11 +108,11 @@ impl SkyLight {
             to_sun: dome.to_sun,
             backdrop: 0,
             disc: dome.disc,
-            has_ground: 0,
-            ground,
             ground_height: 0.0,
+            ground,
+            padding0: 0,
             ground_albedo: settings.ground_albedo,
-            padding: 0,
+            padding1: 0,
         })
     }
 
@@ -140,7 +140,6 @@ impl SkyLight {
             Backdrop::Shadows => 1,
         };
         if let Some(ground) = ground {
-            sky.has_ground = 1;
             sky.ground_height = (ground.height_world - origin_world.y) as f32;
         }
         frame.upload_buffer("sky", bytes_of(&sky).to_vec())
@@ -169,8 +168,8 @@ mod tests {
         let sky = SKY_LIGHT.with_value("ENVIRONMENT", "2");
         let module = compose("background.wgsl", &[NONE, sky]).unwrap();
         check_layout!(&module, "Sky", GpuSky:
-            distribution, irradiance, radiance, cos_disc, to_sun, backdrop, disc, has_ground, ground,
-            ground_height, ground_albedo,
+            distribution, irradiance, radiance, cos_disc, to_sun, backdrop, disc,
+            ground_height, ground, ground_albedo,
         )
         .unwrap();
     }
