@@ -11,7 +11,7 @@ Measures the techniques and the graph on a GPU, and runs the pixel tests on it. 
 
   --adapter auto|NAME|cpu   the GPU; default: auto
   --city INSTANCES          size of the city; default: 100000, on software drivers 10000
-  --size WxH                size of the frames; default: 1280x720
+  --size WxH                size of the frames; default: 1280x720, on software drivers 320x180
   --frames N                measured frames of each scene and technique; default: 20, on software drivers 2
   --no-pixel-tests          leave out the pixel tests
   -o DIRECTORY              where the report is written; default: the current directory
@@ -25,7 +25,7 @@ pub(crate) struct Arguments {
     /// The adapter, and the text that names it.
     pub(crate) adapter: (AdapterChoice, String),
     pub(crate) city: Option<u32>,
-    pub(crate) size_px: [u32; 2],
+    pub(crate) size_px: Option<[u32; 2]>,
     pub(crate) frames: Option<u32>,
     pub(crate) pixel_tests: bool,
     pub(crate) output: PathBuf,
@@ -40,7 +40,7 @@ impl Arguments {
         let mut parsed = Self {
             adapter: (AdapterChoice::Auto, "auto".to_owned()),
             city: None,
-            size_px: [1280, 720],
+            size_px: None,
             frames: None,
             pixel_tests: true,
             output: PathBuf::from("."),
@@ -73,7 +73,7 @@ impl Arguments {
                 }
                 "--size" => {
                     let size: Size = value.parse().map_err(|error: OptionError| format!("--{error}"))?;
-                    parsed.size_px = [size.width_px, size.height_px];
+                    parsed.size_px = Some([size.width_px, size.height_px]);
                 }
                 "--frames" => parsed.frames = Some(number(1, 1_000)?),
                 _ => parsed.output = PathBuf::from(value),
@@ -96,7 +96,7 @@ mod tests {
     fn options_are_read() {
         let parsed =
             parse("--city 20000 --size 64x32 --frames 3 --no-pixel-tests -o there").unwrap().unwrap();
-        assert_eq!((parsed.city, parsed.size_px, parsed.frames), (Some(20_000), [64, 32], Some(3)));
+        assert_eq!((parsed.city, parsed.size_px, parsed.frames), (Some(20_000), Some([64, 32]), Some(3)));
         assert_eq!((parsed.pixel_tests, parsed.output), (false, PathBuf::from("there")));
         assert_eq!(parse("--help"), Ok(None));
     }

@@ -3,6 +3,7 @@
 use std::time::Instant;
 
 use shadowgraph::Gpu;
+use shadowgraph::options::AdapterChoice;
 
 use crate::data::GraphCost;
 use crate::drawing::Drawing;
@@ -10,33 +11,37 @@ use crate::frames::Change;
 use crate::frames::chain::Chain;
 use crate::graph::Whole;
 use crate::hand::Hand;
-use crate::measure::{ROUNDS, Workload, measure_in};
-
-/// Number of rounds on software drivers, which draw a thousand passes in seconds.
-const SOFTWARE_ROUNDS: usize = 3;
+use crate::measure::{Workload, measure_in};
 
 /// Measures frames of 10, 100 and 1,000 passes.
-pub(crate) fn measure(gpu: &Gpu, software: bool) -> Result<Vec<GraphCost>, String> {
-    let drawing = Drawing::new(gpu.device.clone(), gpu.queue.clone());
-    let rounds = if software { SOFTWARE_ROUNDS } else { ROUNDS };
-    Ok([10, 100, 1_000].into_iter().map(|length| measure_chain(&drawing, length, rounds)).collect())
+///
+/// # Errors
+/// The adapter does not open.
+pub(crate) fn measure(adapter: &AdapterChoice, rounds: usize) -> Result<Vec<GraphCost>, String> {
+    [10, 100, 1_000].into_iter().map(|length| measure_chain(adapter, length, rounds)).collect()
 }
 
-fn measure_chain(drawing: &Drawing, length: usize, rounds: usize) -> GraphCost {
+/// Measures frames of one length, each side on a separate device: on a shared one, each would pay for the textures of all.
+fn measure_chain(adapter: &AdapterChoice, length: usize, rounds: usize) -> Result<GraphCost, String> {
+    let drawing = || {
+        let gpu = Gpu::open(adapter).map_err(|error| error.to_string())?;
+        Ok::<_, String>(Drawing::new(gpu.device, gpu.queue))
+    };
+    let [by_hand, same, other] = [drawing()?, drawing()?, drawing()?];
     let chain = Chain::new(length);
-    let hand = Hand::new(drawing, &chain);
-    let [unchanged, changed] = [Change::Never, Change::Pass].map(|change| {
+    let hand = Hand::new(&by_hand, &chain);
+    let [unchanged, changed] = [(&same, Change::Never), (&other, Change::Pass)].map(|(drawing, change)| {
         let mut whole = Whole::new(drawing, &chain, change);
         waited(drawing, move || whole.frame())
     });
-    let workloads = [waited(drawing, move || hand.frame()), unchanged, changed];
+    let workloads = [waited(&by_hand, move || hand.frame()), unchanged, changed];
     let [hand, unchanged, changed] = measure_in(rounds, workloads);
-    GraphCost {
+    Ok(GraphCost {
         passes: length,
         by_hand_us: hand.seconds * 1e6,
         unchanged: unchanged.ratio,
         changed: changed.ratio,
-    }
+    })
 }
 
 /// A workload with the time until it has submitted its frame. It then waits until the GPU has drawn it, so that frames do not queue up.

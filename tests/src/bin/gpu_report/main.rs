@@ -23,6 +23,7 @@ mod measure;
 mod page;
 mod pixels;
 mod scenes;
+mod work;
 
 use std::path::Path;
 use std::process::ExitCode;
@@ -32,6 +33,7 @@ use arguments::Arguments;
 use data::{AdapterData, Report};
 use shadowgraph::Gpu;
 use shadowgraph::wgpu::DeviceType;
+use work::Work;
 
 fn main() -> ExitCode {
     let arguments = match Arguments::parse(std::env::args().skip(1)) {
@@ -64,20 +66,19 @@ fn main() -> ExitCode {
 fn run(arguments: &Arguments, gpu: &Gpu) -> Result<(), String> {
     let adapter = AdapterData::new(&gpu.adapter);
     println!("{}, {}", adapter.name, adapter.driver);
-    let software = gpu.adapter.device_type == DeviceType::Cpu;
-    let mut report = Report::new(adapter, arguments.size_px);
+    let work = Work::new(arguments, gpu.adapter.device_type == DeviceType::Cpu);
+    let mut report = Report::new(adapter, work.size_px);
     // Written after each part: what was measured stays if a later part fails.
-    timed("graph", || graph_cost::measure(gpu, software).map(|costs| report.graph = costs))?;
+    let (choice, name) = &arguments.adapter;
+    timed("graph", || graph_cost::measure(choice, work.rounds).map(|costs| report.graph = costs))?;
     write(&report, &arguments.output)?;
-    for scene in scenes::sources(arguments, software)? {
-        let name = scene.name.clone();
-        timed(&name, || scene.measure(gpu, arguments, software).map(|data| report.scenes.push(data)))?;
+    for scene in scenes::sources(work.city)? {
+        let part = scene.name.clone();
+        timed(&part, || scene.measure(gpu, &work).map(|data| report.scenes.push(data)))?;
         write(&report, &arguments.output)?;
     }
     if arguments.pixel_tests {
-        timed("pixel tests", || {
-            pixels::run(&arguments.adapter.1).map(|tests| report.pixel_tests = Some(tests))
-        })?;
+        timed("pixel tests", || pixels::run(name).map(|tests| report.pixel_tests = Some(tests)))?;
         write(&report, &arguments.output)?;
     }
     println!("wrote {} and gpu-report.html", arguments.output.join("gpu-report.json").display());

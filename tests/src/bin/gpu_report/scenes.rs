@@ -12,14 +12,8 @@ use shadowgraph_quality::bench::{Stats, WholeFrame, pass_times, whole_frames};
 use shadowgraph_samples::city::city;
 use shadowgraph_samples::demo::demo_scene;
 
-use crate::arguments::Arguments;
 use crate::data::{SceneData, TechniqueData};
-
-/// Scenes with more triangles than this are not traced: the processor would build their tree for minutes.
-const TRACED_TRIANGLES: usize = 500_000;
-
-/// Frames that are measured unless the options say how many: on a software driver, and on a GPU.
-const FRAMES: [u32; 2] = [2, 20];
+use crate::work::Work;
 
 /// A scene to measure.
 pub(crate) struct Source {
@@ -27,12 +21,11 @@ pub(crate) struct Source {
     scene: Scene,
 }
 
-/// Returns the scenes to measure.
+/// Returns the scenes to measure, a city with this many instances among them.
 ///
 /// # Errors
 /// A file that cannot be loaded.
-pub(crate) fn sources(arguments: &Arguments, software: bool) -> Result<Vec<Source>, String> {
-    let instances = arguments.city.unwrap_or(if software { 10_000 } else { 100_000 });
+pub(crate) fn sources(instances: u32) -> Result<Vec<Source>, String> {
     let city = city(instances, 1).ok_or("the city is out of range")?;
     let mut sources = vec![
         Source { name: "demo".to_owned(), scene: demo_scene() },
@@ -59,13 +52,8 @@ impl Source {
     ///
     /// # Errors
     /// A failure of the GPU.
-    pub(crate) fn measure(
-        self,
-        gpu: &Gpu,
-        arguments: &Arguments,
-        software: bool,
-    ) -> Result<SceneData, String> {
-        let frames = arguments.frames.unwrap_or(FRAMES[usize::from(!software)]);
+    pub(crate) fn measure(self, gpu: &Gpu, work: &Work) -> Result<SceneData, String> {
+        let Work { size_px, frames, traced_triangles, .. } = *work;
         let Self { name, scene } = self;
         let triangles = |key| scene.mesh(key).map_or(0, |mesh| mesh.indices.len() / 3);
         let mut data = SceneData {
@@ -76,10 +64,10 @@ impl Source {
             techniques: Vec::new(),
             left_out: Vec::new(),
         };
-        let options = view(&scene, arguments.size_px);
+        let options = view(&scene, size_px);
         for (technique, pipeline) in configurations() {
-            if technique.name() == "raytraced" && data.triangles > TRACED_TRIANGLES {
-                data.left_out.push(format!("raytraced: more than {TRACED_TRIANGLES} triangles"));
+            if technique.name() == "raytraced" && data.triangles > traced_triangles {
+                data.left_out.push(format!("raytraced: more than {traced_triangles} triangles"));
                 continue;
             }
             let measured = measure_technique(gpu, &scene, &options, (technique, pipeline), frames);
