@@ -13,14 +13,15 @@ const FILES: [&str; 1] = ["docs/everything.ron"];
 /// Scene of the collection of real scenes that is measured, if this machine has it.
 const SCENE: &str = "scenes/kaykit_dungeon_hall.glb";
 
-/// Cargo's arguments for each program, and its name in the directory.
-const PROGRAMS: [(&[&str], &str); 3] = [
-    (&["build", "--package", "shadowgraph-tests", "--bin", "gpu_report"], "gpu-report"),
+/// Cargo's arguments for each program before the name of its target, that name, and its name in the directory.
+const PROGRAMS: [(&[&str], &str, &str); 3] = [
+    (&["build", "--package", "shadowgraph-tests", "--bin"], "gpu_report", "gpu-report"),
     (
-        &["build", "--package", "shadowgraph-cli", "--bin", "shadowgraph", "--no-default-features"],
+        &["build", "--no-default-features", "--package", "shadowgraph-cli", "--bin"],
+        "shadowgraph",
         "shadowgraph",
     ),
-    (&["test", "--no-run", "--package", "shadowgraph-tests", "--test", "pixels"], "pixels"),
+    (&["test", "--no-run", "--package", "shadowgraph-tests", "--test"], "pixels", "pixels"),
 ];
 
 const NEXT: &str = "\
@@ -41,11 +42,11 @@ fn build() -> Result<(), String> {
     let directory = child::root().join(DIRECTORY);
     // Programs of an earlier build must not stay.
     let _absent = std::fs::remove_dir_all(&directory);
-    for (arguments, name) in PROGRAMS {
+    for (arguments, target, name) in PROGRAMS {
         println!("Building {name} ...");
         let mut command = child::cargo(arguments);
-        command.args(["--release", "--message-format=json-render-diagnostics"]);
-        let program = executable(&child::stdout_of_build(&mut command)?)
+        command.args([target, "--release", "--message-format=json-render-diagnostics"]);
+        let program = executable(&child::stdout_of_build(&mut command)?, target)
             .ok_or_else(|| format!("cargo did not say where {name} is"))?;
         copy(&program, &directory.join(name))?;
     }
@@ -66,10 +67,11 @@ fn shared() -> Option<PathBuf> {
     named.or_else(|| Some(child::root().parent()?.join("shared")))
 }
 
-/// Returns the path of the last executable that cargo's messages name.
-fn executable(messages: &str) -> Option<PathBuf> {
-    let path =
-        messages.lines().rev().find_map(|line| line.split_once("\"executable\":\"")?.1.split('"').next());
+/// Returns the path of the executable of a target in cargo's messages, which also name programs that its tests run.
+fn executable(messages: &str, target: &str) -> Option<PathBuf> {
+    let name = format!("\"name\":\"{target}\"");
+    let mut messages = messages.lines().filter(|line| line.contains(&name));
+    let path = messages.find_map(|line| line.split_once("\"executable\":\"")?.1.split('"').next());
     path.map(PathBuf::from)
 }
 
@@ -87,10 +89,11 @@ mod tests {
 
     #[test]
     fn the_executable_is_found_in_the_messages_of_cargo() {
-        let messages = "{\"reason\":\"compiler-artifact\",\"executable\":null}\n\
-            {\"reason\":\"compiler-artifact\",\"executable\":\"/t/release/pixels-1\",\"fresh\":true}\n\
+        let messages = "{\"target\":{\"name\":\"pixels\"},\"executable\":null}\n\
+            {\"target\":{\"name\":\"pixels\"},\"executable\":\"/t/release/pixels-1\",\"fresh\":true}\n\
+            {\"target\":{\"name\":\"peers\"},\"executable\":\"/t/release/peers\",\"fresh\":true}\n\
             {\"reason\":\"build-finished\",\"success\":true}\n";
-        assert_eq!(executable(messages), Some(PathBuf::from("/t/release/pixels-1")));
-        assert_eq!(executable("{}\n"), None);
+        assert_eq!(executable(messages, "pixels"), Some(PathBuf::from("/t/release/pixels-1")));
+        assert_eq!(executable(messages, "none"), None);
     }
 }
