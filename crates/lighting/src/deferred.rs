@@ -56,7 +56,7 @@ impl Deferred {
         background: [f64; 4],
     ) -> Result<Texture, Error> {
         let (variant, debug_light) = self.target.variant(shadows);
-        let key = PipelineKey { variant, constant: debug_light, bindings: view.optional_bindings() };
+        let key = PipelineKey { variant, constant: debug_light, bindings: view.background_bindings() };
         let pipeline = self.pass.pipeline(key, &self.target.constants(debug_light))?;
         let size = frame.texture_desc(depth).map(|desc| desc.size).unwrap_or_default();
         let desc = TextureDesc::d2(size.width, size.height, self.target.format);

@@ -157,8 +157,7 @@ impl Forward {
         let by_material = PipelineKey::all().map(|_| OnceLock::new()).collect();
         let layout = builder.layout(key.bindings);
         // Software adapters compile blending into the shader, so with one kind of blending they compile one shader.
-        let blends_all = key.materials.blends()
-            && !key.writes_depth
+        let blends_all = !key.writes_depth
             && builder.target.output == LitOutput::Light
             && builder.device.adapter_info().device_type == wgpu::DeviceType::Cpu;
         let pipelines =
@@ -231,7 +230,7 @@ impl Forward {
             return Ok(());
         }
         let (variant, debug_light) = self.builder.target.variant(shadows);
-        let bindings = view.optional_bindings().without_ground();
+        let bindings = view.optional_bindings();
         let materials = geometry.scene.material_features();
         let pipelines =
             self.pipelines_for(LitKey { variant, debug_light, writes_depth: false, bindings, materials })?;
@@ -265,8 +264,8 @@ impl Forward {
     ) -> Result<Texture, Error> {
         let (variant, debug_light) = self.builder.target.variant(shadows);
         let writes_depth = matches!(depth, Depth::Written(_));
-        let background_pipeline = self.background(variant, view.optional_bindings())?;
-        let bindings = view.optional_bindings().without_ground();
+        let background_pipeline = self.background(variant, view.background_bindings())?;
+        let bindings = view.optional_bindings();
         let materials = geometry.scene.material_features();
         let pipelines =
             self.pipelines_for(LitKey { variant, debug_light, writes_depth, bindings, materials })?;

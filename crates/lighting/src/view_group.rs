@@ -34,11 +34,6 @@ impl OptionalBindings {
         }
     }
 
-    /// Returns the same bindings for passes that draw no background.
-    pub(crate) fn without_ground(self) -> Self {
-        Self { ground: false, ..self }
-    }
-
     /// Returns the number of the layout.
     pub(crate) fn index(self) -> usize {
         let flags = [self.clusters, self.occlusion, self.sky].into_iter().zip([1, 2, 4]);
@@ -135,8 +130,13 @@ impl ViewBuffers {
             clusters: self.clusters.is_some(),
             occlusion: self.occlusion.is_some(),
             sky: self.sky.is_some(),
-            ground: self.ground_height.is_some(),
+            ground: false,
         }
+    }
+
+    /// Returns the same for a pass that draws the background.
+    pub(crate) fn background_bindings(&self) -> OptionalBindings {
+        OptionalBindings { ground: self.ground_height.is_some(), ..self.optional_bindings() }
     }
 
     /// Declares that `pass` reads all of the buffers.

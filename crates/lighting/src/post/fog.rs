@@ -99,8 +99,7 @@ impl Fog {
     ) -> Result<Texture, Error> {
         let view = ViewBuffers { occlusion: None, ..view.clone() };
         // Points in the fog have no screen mask: variant 0 evaluates points anywhere.
-        let bindings = view.optional_bindings().without_ground();
-        let key = PipelineKey { variant: 0, constant: 0, bindings };
+        let key = PipelineKey { variant: 0, constant: 0, bindings: view.optional_bindings() };
         let pipeline = self.pass.pipeline(key, &[])?;
         let FogSettings { albedo, density, height_m, falloff, anisotropy, distance_m, steps } = *settings;
         let uniforms = FogUniforms {

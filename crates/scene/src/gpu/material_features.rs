@@ -2,7 +2,7 @@
 
 use shadowgraph_shaders::ModuleSource;
 
-use crate::material::{AlphaMode, Material, TextureRef};
+use crate::material::{Material, TextureRef};
 
 /// The parts of the material model that a scene's materials use.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -11,16 +11,13 @@ pub struct MaterialFeatures {
     textures: u8,
     /// Whether some texture has a transform, or reads the second uv set.
     uv_transforms: bool,
-    /// Whether some material is blended.
-    blends: bool,
 }
 
 impl MaterialFeatures {
     /// Returns those that a material uses.
     #[must_use]
     pub fn new(material: &Material) -> Self {
-        let blends = matches!(material.alpha, AlphaMode::Blend | AlphaMode::Transmit);
-        let mut features = Self { blends, ..Self::default() };
+        let mut features = Self::default();
         for (slot, texture) in material.textures().into_iter().enumerate() {
             let Some(TextureRef { uv_transform, uv_set, .. }) = texture else { continue };
             features.textures |= 1 << slot;
@@ -35,20 +32,13 @@ impl MaterialFeatures {
         Self {
             textures: self.textures | other.textures,
             uv_transforms: self.uv_transforms || other.uv_transforms,
-            blends: self.blends || other.blends,
         }
-    }
-
-    /// Returns whether some material is [blended](AlphaMode::Blend).
-    #[must_use]
-    pub fn blends(self) -> bool {
-        self.blends
     }
 
     /// Returns the replacement of `material_features.wgsl`.
     #[must_use]
     pub fn module(self) -> ModuleSource {
-        let Self { textures, uv_transforms, .. } = self;
+        let Self { textures, uv_transforms } = self;
         let source = format!(
             "#define_import_path shadowgraph::material_features\n\
              const TEXTURES: u32 = {textures}u;\n\
@@ -69,15 +59,11 @@ mod tests {
         let plain = Material::default();
         let colored = Material { base_color_texture: Some(texture), ..Material::default() };
         let second = TextureRef { uv_set: 1, ..texture };
-        let glowing =
-            Material { emissive_texture: Some(second), alpha: AlphaMode::Blend, ..Material::default() };
+        let glowing = Material { emissive_texture: Some(second), ..Material::default() };
         let [plain, colored, glowing] =
             [plain, colored, glowing].map(|material| MaterialFeatures::new(&material));
         assert_eq!(plain, MaterialFeatures::default());
-        assert_eq!(colored, MaterialFeatures { textures: 0b00001, ..plain });
-        assert_eq!(
-            colored.union(glowing),
-            MaterialFeatures { textures: 0b10001, uv_transforms: true, blends: true }
-        );
+        assert_eq!(colored, MaterialFeatures { textures: 0b00001, uv_transforms: false });
+        assert_eq!(colored.union(glowing), MaterialFeatures { textures: 0b10001, uv_transforms: true });
     }
 }
