@@ -84,7 +84,8 @@ pub(crate) struct DrawArgs {
     /// A camera, as for --camera, that shadows are fitted to in place of the one of the image
     #[arg(long, value_name = "CAMERA")]
     shadow_camera: Option<String>,
-    /// The GPU by name; cpu forces a software adapter. Default: auto; without this option, bench measures only the CPU
+    /// The GPU by name; cpu forces a software adapter. Default: auto; without this option, bench measures
+    /// only the CPU where it need not draw
     #[arg(long, value_name = "auto|NAME|cpu")]
     adapter: Option<String>,
     /// A directory of WGSL files, such as shaders/wgsl of a checkout, that replace the built-in files of the same names. The window

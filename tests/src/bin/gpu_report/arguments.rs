@@ -10,7 +10,7 @@ Measures the techniques and the graph on a GPU, and runs the pixel tests on it. 
   gpu-report [OPTIONS]
 
   --adapter auto|NAME|cpu   the GPU; default: auto
-  --city INSTANCES          size of the city; default: 100000, on software drivers 10000
+  --city INSTANCES          size of the city; default: 100000, on software drivers 10000 with 4 of its lights
   --size WxH                size of the frames; default: 1280x720, on software drivers 320x180
   --frames N                measured frames of each scene and technique; default: 20, on software drivers 2
   --no-pixel-tests          leave out the pixel tests

@@ -72,7 +72,7 @@ fn run(arguments: &Arguments, gpu: &Gpu) -> Result<(), String> {
     let (choice, name) = &arguments.adapter;
     timed("graph", || graph_cost::measure(choice, work.rounds).map(|costs| report.graph = costs))?;
     write(&report, &arguments.output)?;
-    for scene in scenes::sources(work.city)? {
+    for scene in scenes::sources(&work)? {
         let part = scene.name.clone();
         timed(&part, || scene.measure(gpu, &work).map(|data| report.scenes.push(data)))?;
         write(&report, &arguments.output)?;

@@ -21,12 +21,15 @@ pub(crate) struct Source {
     scene: Scene,
 }
 
-/// Returns the scenes to measure, a city with this many instances among them.
+/// Returns the scenes to measure, a city among them.
 ///
 /// # Errors
 /// A file that cannot be loaded.
-pub(crate) fn sources(instances: u32) -> Result<Vec<Source>, String> {
-    let city = city(instances, 1).ok_or("the city is out of range")?;
+pub(crate) fn sources(work: &Work) -> Result<Vec<Source>, String> {
+    let instances = work.city;
+    let mut city = city(instances, 1).ok_or("the city is out of range")?;
+    let lights: Vec<_> = city.lights().iter().take(work.city_lights).cloned().collect();
+    city.set_lights(lights);
     let mut sources = vec![
         Source { name: "demo".to_owned(), scene: demo_scene() },
         Source { name: format!("city:{instances}"), scene: city },
