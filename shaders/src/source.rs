@@ -80,6 +80,15 @@ pub const SKY_LIGHT: ModuleSource = file!("sky_light.wgsl");
 /// The technique `raytraced`: hard shadows by rays through the scene's triangles.
 pub const RAYTRACED: ModuleSource = file!("shadows/raytraced.wgsl");
 
+/// The technique `virtual`: shadows from pages of virtual shadow maps, for [`PAGE_POOL`] and [`PCF_FILTER`].
+pub const VIRTUAL: ModuleSource = file!("shadows/virtual.wgsl");
+
+/// The pool of pages of [`VIRTUAL`]; it replaces the built-in module of the maps of cascades and the atlas.
+pub const PAGE_POOL: ModuleSource = file!("shadows/page_pool.wgsl");
+
+/// The filter of the technique `pcf`. Its sampler is binding 10.
+pub const PCF_FILTER: ModuleSource = file!("shadows/pcf.wgsl");
+
 /// The modules that any file can import.
 pub(crate) const MODULES: &[ModuleSource] = &[
     file!("cluster_grid.wgsl"),
@@ -90,6 +99,7 @@ pub(crate) const MODULES: &[ModuleSource] = &[
     file!("fullscreen.wgsl"),
     file!("gbuffer_layout.wgsl"),
     file!("ground_depth.wgsl"),
+    file!("layer_views.wgsl"),
     file!("light.wgsl"),
     file!("light_list.wgsl"),
     file!("lighting.wgsl"),
@@ -99,19 +109,22 @@ pub(crate) const MODULES: &[ModuleSource] = &[
     file!("mesh.wgsl"),
     file!("noise.wgsl"),
     file!("occluders.wgsl"),
+    file!("pages_state.wgsl"),
     file!("ray_surfaces.wgsl"),
     file!("rays.wgsl"),
     file!("receiver.wgsl"),
     file!("screen_occlusion.wgsl"),
     file!("shade.wgsl"),
     file!("shadows/colors.wgsl"),
+    file!("shadows/cube.wgsl"),
     file!("shadows/evsm_layout.wgsl"),
     file!("shadows/footprint.wgsl"),
     file!("shadows/layers.wgsl"),
     file!("shadows/linear_depth.wgsl"),
     file!("shadows/lookup.wgsl"),
     file!("shadows/maps.wgsl"),
-    file!("shadows/pcf.wgsl"),
+    file!("shadows/pages.wgsl"),
+    PCF_FILTER,
     file!("shadows/raytraced_settings.wgsl"),
     file!("shadows/tent.wgsl"),
     file!("shadows/crease.wgsl"),
@@ -126,7 +139,7 @@ pub(crate) const MODULES: &[ModuleSource] = &[
 ];
 
 /// The built-in modules with the import path [`TECHNIQUE`], of which the caller passes one.
-pub(crate) const TECHNIQUES: &[ModuleSource] = &[NONE, MAPPED, RAYTRACED];
+pub(crate) const TECHNIQUES: &[ModuleSource] = &[NONE, MAPPED, RAYTRACED, VIRTUAL];
 
 // The files with entry points, `ENTRIES`: `build.rs` lists all files that are not modules.
 include!(concat!(env!("OUT_DIR"), "/entries.rs"));

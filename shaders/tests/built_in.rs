@@ -6,8 +6,8 @@ use naga::{
     valid::{Capabilities, ValidationFlags, Validator},
 };
 use shadowgraph_shaders::{
-    EVSM, MAPPED, MOMENTS, MSM, ModuleSource, NONE, PCSS, PREFILTER, RAYTRACED, SCREEN, SKY_LIGHT, builtin,
-    builtin_files, compose, layout,
+    EVSM, MAPPED, MOMENTS, MSM, ModuleSource, NONE, PAGE_POOL, PCSS, PREFILTER, RAYTRACED, SCREEN, SKY_LIGHT,
+    VIRTUAL, builtin, builtin_files, compose, layout,
 };
 
 /// The files with entry points.
@@ -25,7 +25,8 @@ fn techniques() -> Vec<ModuleSource> {
 /// Adds the modules that an entry file cannot do without: the sky, for the background.
 fn with_needed(entry: &str, modules: &[ModuleSource]) -> Vec<ModuleSource> {
     let sky = (entry == "background.wgsl").then(|| SKY_LIGHT.with_value("ENVIRONMENT", "2"));
-    modules.iter().cloned().chain(sky).collect()
+    let pool = modules.contains(&VIRTUAL).then_some(PAGE_POOL);
+    modules.iter().cloned().chain(sky).chain(pool).collect()
 }
 
 fn composed(entry: &str) -> naga::Module {
@@ -48,7 +49,7 @@ fn bindings(module: &naga::Module) -> Vec<String> {
 
 #[test]
 fn every_entry_is_valid_with_every_technique() {
-    assert_eq!(techniques(), [NONE, MAPPED, RAYTRACED]);
+    assert_eq!(techniques(), [NONE, MAPPED, RAYTRACED, VIRTUAL]);
     assert!(entries().len() >= 26 && entries().contains(&"post/fxaa.wgsl"));
     for entry in entries() {
         for technique in techniques() {
@@ -79,7 +80,7 @@ fn every_entry_is_valid_with_every_filter() {
 #[test]
 fn every_file_is_reached_by_composition() {
     // A module that nothing imports would never be parsed by the other tests.
-    let given = [PCSS, MOMENTS, EVSM, MSM, PREFILTER, SCREEN];
+    let given = [PAGE_POOL, PCSS, MOMENTS, EVSM, MSM, PREFILTER, SCREEN];
     let text: String = builtin_files().filter_map(builtin).chain(given).map(|file| file.source).collect();
     for file in builtin_files().filter(|file| !entries().contains(file)) {
         let source = builtin(file).unwrap().source;

@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use shadowgraph_scene::{Aabb, CullVolume};
 use shadowgraph_shadows::rays::GpuRayScene;
-use shadowgraph_shadows::{CasterView, Mobility, ShadowCasters};
+use shadowgraph_shadows::{CasterView, LayeredCasters, Mobility, ShadowCasters};
 
 use shadowgraph::SceneCasters;
 
@@ -65,6 +65,11 @@ impl ShadowCasters for CountingCasters<'_> {
 
     fn rays(&self) -> Option<&GpuRayScene> {
         self.casters.rays()
+    }
+
+    fn layered(&self) -> Option<&dyn LayeredCasters> {
+        // The GPU knows what is drawn: not counted.
+        self.casters.layered()
     }
 
     fn draw(&self, pass: &mut wgpu::RenderPass<'_>, view: &CasterView, casters: &[u32]) -> u32 {

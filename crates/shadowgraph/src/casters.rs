@@ -1,15 +1,15 @@
 //! A scene's instances as shadow casters.
 
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-use shadowgraph_core::{Error as GraphError, Frame, RenderContext};
-use shadowgraph_lighting::{CullPass, CullView, draw_culled};
-use shadowgraph_scene::gpu::{CasterPipelines, CullFlags, DepthTarget, Draw, GpuScene};
+use shadowgraph_core::{Buffer, Error as GraphError, Frame, RenderContext};
+use shadowgraph_lighting::{CullPass, CullView, LayerCullPass, LayerQuery, draw_culled, draw_layers};
+use shadowgraph_scene::gpu::{CasterPipelines, CullFlags, DepthTarget, Draw, GpuScene, LayerPipelines};
 use shadowgraph_scene::{Aabb, CasterMode, CullVolume};
 use shadowgraph_shadows::rays::GpuRayScene;
 use shadowgraph_shadows::{
     CasterPass, CasterQuery, CasterTarget, CasterView, CulledInstances, CulledTokens, DepthFormat,
-    GpuCasters, Mobility, ShadowCasters, TINT_FORMAT,
+    GpuCasters, LayerTokens, LayeredCasters, LayeredInstances, Mobility, ShadowCasters, TINT_FORMAT,
 };
 
 use crate::culling::{CullChoice, Culling};
@@ -31,6 +31,10 @@ pub struct SceneCasters {
     biased: Mutex<Vec<BiasedPipelines>>,
     /// Culls casters on the GPU.
     cull: CullPass,
+    /// Culls casters for views that the GPU writes.
+    layer_cull: LayerCullPass,
+    /// Draws casters into layers; created on first use.
+    layers: OnceLock<Option<LayerPipelines>>,
     /// What culls the instances of this frame.
     pub(crate) culling: CullChoice,
     /// The triangles, if the technique traces rays.
@@ -66,8 +70,19 @@ impl SceneCasters {
         let pipelines = DepthFormat::ALL.into_iter().map(pipelines).collect::<Result<_, Error>>()?;
         let (rays, ground_shadows) = (None, Aabb::EMPTY);
         let (cull, culling) = (CullPass::new(device)?, Culling::Cpu.choose(&scene));
-        let (device, biased) = (device.clone(), Mutex::default());
-        Ok(Self { scene, device, target, pipelines, biased, cull, culling, rays, ground_shadows })
+        Ok(Self {
+            scene,
+            device: device.clone(),
+            target,
+            pipelines,
+            biased: Mutex::default(),
+            cull,
+            layer_cull: LayerCullPass::new(device)?,
+            layers: OnceLock::new(),
+            culling,
+            rays,
+            ground_shadows,
+        })
     }
 
     /// Returns the pipelines with the bias of a target, which are created as they are first used; `None` if that fails.
@@ -164,6 +179,10 @@ impl ShadowCasters for SceneCasters {
         self.culls_on_gpu().then_some(self)
     }
 
+    fn layered(&self) -> Option<&dyn LayeredCasters> {
+        Some(self)
+    }
+
     fn draw(&self, pass: &mut wgpu::RenderPass<'_>, view: &CasterView, casters: &[u32]) -> u32 {
         let biased = (view.target.slope_bias_milli > 0).then(|| self.biased(&view.target)).flatten();
         let Some(pipelines) = biased.as_deref().or_else(|| self.unbiased(&view.target)) else { return 0 };
@@ -224,6 +243,37 @@ impl GpuCasters for SceneCasters {
 
     fn has_changed(&self, since: u64, volume: &CullVolume) -> bool {
         self.scene.statics_changed(since, volume)
+    }
+}
+
+impl LayeredCasters for SceneCasters {
+    fn cull_layers<'f>(
+        &'f self,
+        frame: &mut Frame<'f>,
+        views: &mut Buffer,
+        capacity: u32,
+    ) -> LayeredInstances {
+        let query = LayerQuery { capacity, required: CullFlags::CASTER, excluded: CullFlags::default() };
+        self.layer_cull.add_to(frame, &self.scene, views, query)
+    }
+
+    fn draw_layers(&self, ctx: &mut RenderContext<'_>, tokens: LayerTokens) -> Result<u32, GraphError> {
+        let create = || LayerPipelines::new(&self.device, self.scene.layouts()).ok();
+        let Some(pipelines) = self.layers.get_or_init(create) else { return Ok(0) };
+        let pipeline_for = |draw: &Draw| pipelines.get(draw.casts);
+        draw_layers(ctx, &self.scene, pipelines.view_layout(), tokens, &pipeline_for)
+    }
+
+    fn all_moving(&self, casters: &mut Vec<u32>) {
+        self.scene.cull_moving_casters(&CullVolume::default(), casters);
+    }
+
+    fn static_version(&self) -> u64 {
+        self.scene.static_version()
+    }
+
+    fn static_changes(&self, since: u64, bounds: &mut Vec<Aabb>) -> bool {
+        self.scene.static_changes(since, bounds)
     }
 }
 

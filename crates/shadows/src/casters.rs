@@ -4,6 +4,7 @@ use shadowgraph_scene::{Aabb, CullVolume};
 
 use crate::caster_view::CasterView;
 use crate::gpu_casters::GpuCasters;
+use crate::layered_casters::LayeredCasters;
 use crate::rays::GpuRayScene;
 
 /// The shadow casters of a scene. Implement it for your own scene.
@@ -73,6 +74,11 @@ pub trait ShadowCasters: Sync {
     /// Returns the casters for culling on the GPU, if the cascades of this frame should be culled there. The default is `None`: casters are
     /// listed by [`cull`](Self::cull).
     fn gpu(&self) -> Option<&dyn GpuCasters> {
+        None
+    }
+
+    /// Returns the casters for views that the GPU writes, for techniques that draw such views, as `virtual` does.
+    fn layered(&self) -> Option<&dyn LayeredCasters> {
         None
     }
 

@@ -49,6 +49,14 @@ pub enum Error {
         /// The technique's name.
         technique: String,
     },
+    /// A technique that draws views that the GPU writes got casters that cannot be drawn in them.
+    #[error(
+        "technique `{technique}` draws casters in views that the GPU writes: implement `ShadowCasters::layered`"
+    )]
+    MissingLayers {
+        /// The technique's name.
+        technique: String,
+    },
     /// A technique is inconsistent with its declarations, or has invalid settings.
     #[error("technique `{technique}`: {reason}")]
     Technique {

@@ -24,6 +24,7 @@ mod cull;
 mod culled;
 mod error;
 mod gpu_casters;
+mod layered_casters;
 mod light_params;
 mod lookup_variant;
 mod maps;
@@ -53,6 +54,7 @@ pub use cull::{CoveredByFinerCascade, LightSpaceView, ReceiverHull, RedundantCas
 pub use culled::{CulledGroup, CulledInstances, CulledTokens};
 pub use error::Error;
 pub use gpu_casters::{CasterQuery, GpuCasters};
+pub use layered_casters::{LayerTokens, LayeredCasters, LayeredInstances};
 pub use lookup_variant::{CommonLookup, LookupSource, LookupVariant, MapUse};
 pub use maps::{DrawnMap, DrawnMaps, ShadowMaps};
 pub use ortho::{OrthoFit, light_from_world};
@@ -61,7 +63,7 @@ pub use planner::{plan_shadows, plan_shadows_after};
 pub use receivers::{ReceiverRange, SkippedSlices, SteppedDistance};
 pub use registry::{
     EVSM, MSM, NONE, PCF, PCSS, RAYTRACED, SDSM, Technique, TechniqueContext, TechniqueKind,
-    TechniqueModifier, Techniques,
+    TechniqueModifier, Techniques, VIRTUAL,
 };
 pub use requirements::Requirements;
 pub use select::{Unshadowed, UnshadowedReason};
@@ -81,6 +83,7 @@ pub use technique::{
 pub use techniques::{
     ContactSettings, Evsm, EvsmMoments, EvsmPrecision, EvsmSettings, Msm, MsmSettings, NoShadows, Pcf, Pcss,
     PcssSettings, Raytraced, RaytracedSettings, ScreenSettings, ScreenShadows, Sdsm, SdsmSettings,
+    VirtualMaps, VirtualSettings,
 };
 pub use tile_fit::TileFit;
 pub use vertex_buffers::VertexBuffers;

@@ -85,6 +85,29 @@ pub fn plan_shadows_after(
     Ok(Planner::new(inputs, previous, requirements)?.plan())
 }
 
+/// The lights that can have shadows in a frame.
+pub(crate) struct ShadowedLights<'a> {
+    /// The lights, the most important first.
+    pub(crate) candidates: Vec<Candidate<'a>>,
+    /// The lights that cannot.
+    pub(crate) unshadowed: Vec<Unshadowed>,
+    /// The range of the view in which there are shadows.
+    pub(crate) range: ShadowRange<'a>,
+}
+
+/// Returns the lights that can have shadows in a frame, for techniques that plan no tiles.
+///
+/// # Errors
+///
+/// The errors of [`plan_shadows`].
+pub(crate) fn shadowed_lights<'a>(inputs: &ShadowInputs<'a>) -> Result<ShadowedLights<'a>, Error> {
+    let mut planner = Planner::new(inputs, None, &Requirements::NONE)?;
+    let mut candidates = planner.candidates();
+    candidates.sort_by(Candidate::order);
+    let (unshadowed, range) = (planner.plan.unshadowed, planner.range);
+    Ok(ShadowedLights { candidates, unshadowed, range })
+}
+
 /// The latest begin of the first cascade, as a fraction of the way to the end of the last.
 const LATEST_BEGIN: f64 = 0.9;
 

@@ -26,6 +26,8 @@ pub struct Unshadowed {
 pub enum UnshadowedReason {
     /// More important lights use all tiles of the atlas.
     AtlasFull,
+    /// More important lights use all pages of the pool of virtual shadow maps.
+    PoolFull,
     /// No caster is in its range.
     NoCasterInRange,
     /// It lights nothing visible within the shadow distance.
@@ -42,6 +44,7 @@ impl UnshadowedReason {
     pub fn describe(self) -> &'static str {
         match self {
             Self::AtlasFull => "the shadow atlas is full: more important lights use its tiles",
+            Self::PoolFull => "the pool of pages is full: more important lights use them",
             Self::NoCasterInRange => "no shadow caster in range",
             Self::OutOfView => "the light does not reach the view within the shadow distance",
             Self::NoIntensity => "the intensity is zero",

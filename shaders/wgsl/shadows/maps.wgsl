@@ -25,6 +25,14 @@ fn map_size(map: u32) -> vec2f {
     return vec2f(textureDimensions(atlas_map));
 }
 
+// The comparison of a depth at texture coordinates with those of a map.
+fn compared_in(map: u32, comparison: sampler_comparison, uv: vec2f, depth: f32) -> f32 {
+    if is_cascade_map(map) {
+        return textureSampleCompareLevel(cascade_map, comparison, uv, depth);
+    }
+    return textureSampleCompareLevel(atlas_map, comparison, uv, depth);
+}
+
 fn stored_depth(map: u32, texel: vec2i) -> f32 {
     if is_cascade_map(map) {
         return textureLoad(cascade_map, texel, 0);

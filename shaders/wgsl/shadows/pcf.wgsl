@@ -2,7 +2,7 @@
 #define_import_path shadowgraph::shadows::filter
 #import shadowgraph::receiver::Receiver
 #import shadowgraph::shadows::lookup::Lookup
-#import shadowgraph::shadows::maps::{cascade_map, atlas_map, is_cascade_map, map_size, stored_gradient}
+#import shadowgraph::shadows::maps::{compared_in, map_size, stored_gradient}
 #import shadowgraph::shadows::tent::{TentAxis, TentPlane, tent_axis, tent_depth}
 #import shadowgraph::shadows::types::{ShadowLight, BIAS_GRADIENT}
 #import shadowgraph::shadows::variant::{FILTER_TAPS, SIMPLE}
@@ -30,10 +30,7 @@ fn compared(map: u32, plane: TentPlane, row: Row, across: f32, rise: f32) -> f32
     let tap = vec2f(across, row.offset);
     let uv = (row.base + tap) / map_size(map);
     let depth = tent_depth(plane, rise + row.rise, tap - row.s);
-    if is_cascade_map(map) {
-        return textureSampleCompareLevel(cascade_map, shadow_sampler, uv, depth);
-    }
-    return textureSampleCompareLevel(atlas_map, shadow_sampler, uv, depth);
+    return compared_in(map, shadow_sampler, uv, depth);
 }
 
 // A component. An index that is not constant would move the vector to memory.

@@ -1,24 +1,13 @@
 // Finds the shadow map tiles that a point is read from, and their weights.
 #define_import_path shadowgraph::shadows::tiles
 #import shadowgraph::receiver::{Receiver, RECEIVER_COARSER, receiver_noise}
+#import shadowgraph::shadows::cube::cube_face
 #import shadowgraph::shadows::lookup::{Lookup, covers_receiver, incidence_in, look_up}
 #import shadowgraph::shadows::types::{
     ShadowView, ShadowLight, SELECT_MAP, SELECT_SPHERE, SELECT_DEPTH, SELECT_FACE, BLEND_HARD, BLEND_DITHER,
 }
 #import shadowgraph::shadows::variant::{DIRECTIONAL, ONE_LIGHT, SIMPLE}
 #import shadowgraph::shadows::views::light_view
-
-// +X, -X, +Y, -Y, +Z, -Z.
-fn cube_face(direction: vec3f) -> u32 {
-    let size = abs(direction);
-    if size.x >= size.y && size.x >= size.z {
-        return select(0u, 1u, direction.x < 0.0);
-    }
-    if size.y >= size.z {
-        return select(2u, 3u, direction.y < 0.0);
-    }
-    return select(4u, 5u, direction.z < 0.0);
-}
 
 // The index of the light's view, from `first` on, that a point is read from; view_count, the empty view, if there is none.
 fn select_view(light: ShadowLight, receiver: Receiver, first: u32) -> u32 {

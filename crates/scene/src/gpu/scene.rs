@@ -283,6 +283,12 @@ impl GpuScene {
         self.static_changes.since(since, volume)
     }
 
+    /// Appends the bounds, before and after, of casters that do not move and have changed since a version. Returns false if changes have been
+    /// forgotten, which may have been anywhere.
+    pub fn static_changes(&self, since: u64, bounds: &mut Vec<Aabb>) -> bool {
+        self.static_changes.bounds_since(since, bounds)
+    }
+
     /// Returns what a pass reads and writes to deform meshes by skins and morph targets, before anything draws them; `None` if no
     /// mesh has changed since it was recorded ([`PoseDone`](super::PoseDone)).
     #[must_use]

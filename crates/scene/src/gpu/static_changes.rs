@@ -38,6 +38,13 @@ impl StaticChanges {
         self.version
     }
 
+    /// Appends the bounds of changes since a version, and returns whether none of them has been forgotten.
+    pub(super) fn bounds_since(&self, version: u64, bounds: &mut Vec<Aabb>) -> bool {
+        let later = self.changes.iter().rev().take_while(|(changed, _)| *changed > version);
+        bounds.extend(later.map(|(_, bounds)| *bounds));
+        version >= self.forgotten
+    }
+
     /// Returns whether anything in the volume may have changed since a version.
     pub(super) fn since(&self, version: u64, volume: &CullVolume) -> bool {
         let later = self.changes.iter().rev().take_while(|(changed, _)| *changed > version);

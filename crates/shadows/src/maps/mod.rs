@@ -225,7 +225,7 @@ impl DrawnMaps {
 }
 
 /// Creates one texel of zeros, with which wgpu initializes new textures.
-fn texel(device: &wgpu::Device, label: &str, format: wgpu::TextureFormat) -> wgpu::Texture {
+pub(crate) fn texel(device: &wgpu::Device, label: &str, format: wgpu::TextureFormat) -> wgpu::Texture {
     device.create_texture(&wgpu::TextureDescriptor {
         label: Some(label),
         size: wgpu::Extent3d { width: 1, height: 1, depth_or_array_layers: 1 },

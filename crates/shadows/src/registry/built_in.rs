@@ -3,7 +3,7 @@
 use super::TechniqueKind;
 use crate::techniques::{
     Evsm, EvsmSettings, Msm, MsmSettings, NoShadows, Pcf, Pcss, PcssSettings, Raytraced, RaytracedSettings,
-    Sdsm, SdsmSettings,
+    Sdsm, SdsmSettings, VirtualMaps, VirtualSettings,
 };
 
 /// `pcf`: the default.
@@ -44,6 +44,14 @@ pub const SDSM: TechniqueKind = TechniqueKind::new(
 )
 .with_settings::<SdsmSettings>();
 
+/// `virtual`: [`VirtualMaps`].
+pub const VIRTUAL: TechniqueKind = TechniqueKind::new(
+    "virtual",
+    "virtual shadow maps: pages of texels as fine as pixels, drawn where they are seen and kept from frame to frame",
+    |context| Ok(Box::new(VirtualMaps::new(context.device)?)),
+)
+.with_settings::<VirtualSettings>();
+
 /// `raytraced`: [`Raytraced`].
 pub const RAYTRACED: TechniqueKind = TechniqueKind::new(
     "raytraced",
@@ -57,4 +65,4 @@ pub const NONE: TechniqueKind =
     TechniqueKind::new("none", "no shadows: everything is lit", |_| Ok(Box::new(NoShadows)));
 
 /// The default first.
-pub(super) const ALL: [TechniqueKind; 7] = [PCF, PCSS, EVSM, MSM, SDSM, RAYTRACED, NONE];
+pub(super) const ALL: [TechniqueKind; 8] = [PCF, PCSS, EVSM, MSM, SDSM, VIRTUAL, RAYTRACED, NONE];

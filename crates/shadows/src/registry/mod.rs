@@ -5,7 +5,7 @@ mod check;
 mod choice;
 mod kind;
 
-pub use built_in::{EVSM, MSM, NONE, PCF, PCSS, RAYTRACED, SDSM};
+pub use built_in::{EVSM, MSM, NONE, PCF, PCSS, RAYTRACED, SDSM, VIRTUAL};
 pub use choice::Technique;
 pub use kind::{TechniqueContext, TechniqueKind};
 

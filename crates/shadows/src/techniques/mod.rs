@@ -9,6 +9,7 @@ mod pcss;
 mod raytraced;
 mod screen;
 mod sdsm;
+mod virtual_maps;
 
 pub use moments::{Evsm, EvsmMoments, EvsmPrecision, EvsmSettings, Msm, MsmSettings};
 pub use none::NoShadows;
@@ -17,3 +18,4 @@ pub use pcss::{Pcss, PcssSettings};
 pub use raytraced::{Raytraced, RaytracedSettings};
 pub use screen::{ContactSettings, ScreenSettings, ScreenShadows};
 pub use sdsm::{Sdsm, SdsmSettings};
+pub use virtual_maps::{VirtualMaps, VirtualSettings};

@@ -1,0 +1,152 @@
+//! `virtual`: shadow maps with texels where pixels need them.
+//!
+//! A directional light has a map of 16 levels around the camera, each of 16,384 x 16,384 texels that are twice as wide as those of the level
+//! before; a spot light and each face of a point light have a pyramid of levels. Levels are divided into pages of 128 x 128 texels. A pass
+//! marks the pages that the visible surfaces are read from, at the level whose texels are at most as wide as a pixel; these have a place in a
+//! pool of physical pages, and are drawn when they come in or when a caster in them changes. Everything about pages is decided on the GPU.
+//!
+//! After Olsson et al., "Efficient Virtual Shadow Maps for Many Lights" (2014), and Sakmary, "Virtual Shadow Maps" (CESCG 2025).
+
+mod passes;
+mod plan;
+mod projections;
+mod settings;
+mod slots;
+mod store;
+
+pub use settings::VirtualSettings;
+
+use shadowgraph_core::{Frame, Texture};
+use shadowgraph_shaders::{ModuleSource, PAGE_POOL, PCF_FILTER, VIRTUAL};
+
+use crate::error::Error;
+use crate::maps::{comparison_sampler, texel};
+use crate::plan::ShadowInputs;
+use crate::requirements::Requirements;
+use crate::settings::NamedSettings;
+use crate::technique::binding::{COMPARISON_SAMPLER, DEPTH_MAP, STORAGE};
+use crate::technique::{ShadowBinding, ShadowOutputs, ShadowTechnique, SurfaceBuffers};
+use passes::{FrameBuffers, Passes};
+use plan::VirtualPlan;
+use store::{PoolSize, Stores};
+
+/// Virtual shadow maps. The filter is that of [`Pcf`](crate::Pcf).
+pub struct VirtualMaps {
+    device: wgpu::Device,
+    passes: Passes,
+    sampler: wgpu::Sampler,
+    stores: Stores,
+    /// Zeros in place of all buffers of a frame without shadows, and of the pool.
+    nothing: wgpu::Buffer,
+    no_pool: wgpu::Texture,
+}
+
+impl VirtualMaps {
+    /// Creates what stays the same for all frames.
+    ///
+    /// # Errors
+    /// If a shader does not compose.
+    pub fn new(device: &wgpu::Device) -> Result<Self, Error> {
+        Ok(Self {
+            device: device.clone(),
+            passes: Passes::new(device)?,
+            sampler: comparison_sampler(device),
+            stores: Stores::default(),
+            nothing: device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("no pages"),
+                size: NOTHING_BYTES,
+                usage: wgpu::BufferUsages::STORAGE,
+                mapped_at_creation: false,
+            }),
+            no_pool: texel(device, "no page pool", wgpu::TextureFormat::Depth32Float),
+        })
+    }
+
+    /// Returns the output of a frame in which no light has shadows.
+    fn all_lit<'f>(&'f self, frame: &mut Frame<'f>, plan: &VirtualPlan) -> ShadowOutputs<'f> {
+        let pool = frame.import_texture("no page pool", &self.no_pool, true);
+        let nothing = || ShadowBinding::ExternalBuffer(&self.nothing);
+        self.outputs([nothing(), nothing(), nothing(), nothing()], pool, plan)
+    }
+
+    fn outputs<'f>(
+        &'f self,
+        buffers: [ShadowBinding<'f>; 4],
+        pool: Texture,
+        plan: &VirtualPlan,
+    ) -> ShadowOutputs<'f> {
+        let mut bindings = Vec::from(buffers);
+        bindings.push(ShadowBinding::Texture(pool.clone()));
+        bindings.push(ShadowBinding::Sampler(&self.sampler));
+        ShadowOutputs {
+            bindings,
+            debug_light: plan.main_light,
+            debug: vec![("pool", pool)],
+            unshadowed: plan.unshadowed.clone(),
+            ..ShadowOutputs::default()
+        }
+    }
+}
+
+/// As long as the longest element of the buffers.
+const NOTHING_BYTES: u64 = 256;
+
+impl ShadowTechnique for VirtualMaps {
+    fn name(&self) -> &str {
+        VirtualSettings::NAME
+    }
+
+    fn requirements(&self, _inputs: &ShadowInputs<'_>) -> Result<Requirements, Error> {
+        Ok(Requirements::NONE)
+    }
+
+    fn reads_surface_buffers(&self) -> bool {
+        true
+    }
+
+    fn modules(&self, _variant: u32) -> Vec<ModuleSource> {
+        let filter = PCF_FILTER.source.replace("@binding(10)", "@binding(5)");
+        vec![VIRTUAL, PAGE_POOL, ModuleSource::new(PCF_FILTER.file, filter)]
+    }
+
+    fn binding_types(&self) -> Vec<wgpu::BindingType> {
+        vec![STORAGE, STORAGE, STORAGE, STORAGE, DEPTH_MAP, COMPARISON_SAMPLER]
+    }
+
+    fn add_to<'f>(
+        &'f self,
+        frame: &mut Frame<'f>,
+        inputs: &ShadowInputs<'f>,
+        _requirements: &Requirements,
+        buffers: Option<&SurfaceBuffers>,
+    ) -> Result<ShadowOutputs<'f>, Error> {
+        let buffers =
+            buffers.ok_or_else(|| Error::MissingSurfaceBuffers { technique: self.name().into() })?;
+        let settings: VirtualSettings = inputs.settings.techniques.get()?;
+        let size =
+            PoolSize::new(settings.pool_mib, &self.device.limits()).map_err(|largest| Error::Setting {
+                field: "techniques.virtual.pool_mib".into(),
+                value: settings.pool_mib.to_string(),
+                allowed: format!("4 to {largest} MiB on this device"),
+            })?;
+        let previous = self.stores.previous(inputs.view);
+        let known = previous.map_or_else(Default::default, |store| store.known().clone());
+        let plan = VirtualPlan::new(inputs, &known.slots, size.pages, buffers.size_px[1])?;
+        if plan.is_empty() {
+            return Ok(self.all_lit(frame, &plan));
+        }
+        let casters = inputs.casters.layered();
+        let casters = casters.ok_or_else(|| Error::MissingLayers { technique: self.name().into() })?;
+        let store = self.stores.fitting(&self.device, inputs.view, size, plan.slots.entry_count());
+        let known = store.known().clone();
+        let (next, changes) = known.next((inputs.casters, casters), inputs.origin_world, plan.slots.clone());
+        frame.node("shadows", |frame| {
+            let inputs = (inputs, buffers, &settings);
+            let store = (&store, next, &changes);
+            let FrameBuffers { projections, levels, lights, table, pool } =
+                self.passes.add_to(frame, inputs, (&plan, casters), store);
+            let buffers = [projections, levels, lights, table].map(ShadowBinding::Buffer);
+            Ok(self.outputs(buffers, pool, &plan))
+        })
+    }
+}

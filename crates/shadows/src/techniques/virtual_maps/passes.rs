@@ -1,0 +1,362 @@
+//! The passes that bring the pages of a frame up to date.
+
+use shadowgraph_core::{Bind, Buffer, BufferDesc, Contents, Format, Frame, Texture, TextureDesc};
+use shadowgraph_shaders::compose;
+
+use super::plan::{MAX_COARSE, VirtualPlan};
+use super::projections::PAGE_PX;
+use super::settings::VirtualSettings;
+use super::store::{Changes, Known, MAX_CHANGED, PageStore};
+use crate::error::Error;
+use crate::layered_casters::{LayerTokens, LayeredCasters};
+use crate::plan::ShadowInputs;
+use crate::technique::binding::{FLOAT_MAP, STORAGE, UNIFORM};
+use crate::technique::{SurfaceBuffers, layout};
+use crate::techniques::compute::{dispatch, pipeline, shader};
+use crate::vertex_buffers::VertexBuffers;
+use std::sync::Arc;
+
+/// A writable storage buffer.
+const WRITTEN: wgpu::BindingType = wgpu::BindingType::Buffer {
+    ty: wgpu::BufferBindingType::Storage { read_only: false },
+    has_dynamic_offset: false,
+    min_binding_size: None,
+};
+/// The side of a workgroup that marks pages, pixels.
+const WORKGROUP_PX: u32 = 8;
+/// Threads of a workgroup of passes over pages.
+const THREADS: u32 = 64;
+/// Workgroups of passes over lists whose length the CPU does not know.
+const LIST_WORKGROUPS: u32 = 32;
+/// The most pages that the pixels of a frame request, and that it may need at any coarsening.
+const REQUESTS: u32 = 1 << 15;
+const NEEDS: u32 = 1 << 16;
+/// Bytes of `ListedPage`, `Counters` and `LayerView`, and of the header of `LayerViews`.
+const LISTED_BYTES: u64 = 24;
+const COUNTER_BYTES: u64 = 48;
+const VIEW_BYTES: u64 = 80;
+const VIEWS_HEADER_BYTES: u64 = 16;
+
+/// The pipelines and their layouts.
+pub(super) struct Passes {
+    view_layout: wgpu::BindGroupLayout,
+    state_layout: wgpu::BindGroupLayout,
+    mark_layout: wgpu::BindGroupLayout,
+    update_layout: wgpu::BindGroupLayout,
+    store_layout: wgpu::BindGroupLayout,
+    mark: wgpu::ComputePipeline,
+    validate: wgpu::ComputePipeline,
+    list: wgpu::ComputePipeline,
+    allocate: wgpu::ComputePipeline,
+    finish: wgpu::ComputePipeline,
+    store: wgpu::RenderPipeline,
+}
+
+/// The buffers of a frame.
+pub(super) struct FrameBuffers {
+    pub(super) projections: Buffer,
+    pub(super) levels: Buffer,
+    pub(super) lights: Buffer,
+    pub(super) table: Buffer,
+    pub(super) pool: Texture,
+}
+
+impl Passes {
+    pub(super) fn new(device: &wgpu::Device) -> Result<Self, Error> {
+        let view_layout = layout(device, "view", &[UNIFORM]);
+        let state = [UNIFORM, STORAGE, STORAGE, WRITTEN, WRITTEN, WRITTEN];
+        let state_layout = layout(device, "pages", &state);
+        let mark_layout = layout(device, "mark pages", &[FLOAT_MAP, STORAGE]);
+        let update_layout = layout(device, "update pages", &[WRITTEN; 3]);
+        let marking = shader(device, "pages_mark.wgsl", compose("pages_mark.wgsl", &[])?);
+        let mark = pipeline(device, &marking, "cs_mark", &[&view_layout, &state_layout, &mark_layout]);
+        let updating = shader(device, "pages_update.wgsl", compose("pages_update.wgsl", &[])?);
+        let update =
+            |entry| pipeline(device, &updating, entry, &[&view_layout, &state_layout, &update_layout]);
+        let (store_layout, store) = store_pipeline(device)?;
+        Ok(Self {
+            mark,
+            validate: update("cs_validate"),
+            list: update("cs_list"),
+            allocate: update("cs_allocate"),
+            finish: update("cs_finish"),
+            store,
+            view_layout,
+            state_layout,
+            mark_layout,
+            update_layout,
+            store_layout,
+        })
+    }
+
+    /// Adds the passes. The frame leaves `next` in the store when it is recorded.
+    pub(super) fn add_to<'f>(
+        &'f self,
+        frame: &mut Frame<'f>,
+        (inputs, buffers, settings): (&ShadowInputs<'f>, &SurfaceBuffers, &VirtualSettings),
+        (plan, casters): (&VirtualPlan, &'f dyn LayeredCasters),
+        (store, next, changes): (&Arc<PageStore>, Known, &Changes),
+    ) -> FrameBuffers {
+        let block = frame_block(inputs, settings, plan, (store, &next, changes));
+        let upload = |frame: &mut Frame<'f>, name: &'static str, bytes: &[u8]| {
+            frame.upload_buffer(name, bytes.to_vec())
+        };
+        let mut steps = Steps {
+            block: upload(frame, "pages of the frame", &block),
+            projections: upload(frame, "projections", bytemuck::cast_slice(&plan.projections)),
+            levels: upload(frame, "levels", bytemuck::cast_slice(&plan.levels)),
+            lights: upload(frame, "shadow lights", bytemuck::cast_slice(&plan.lights)),
+            marks: frame.import_buffer("page marks", &store.marks, true),
+            counters: upload(frame, "page counters", &[0; COUNTER_BYTES as usize]),
+            lists: frame
+                .create_buffer("page lists", BufferDesc::new(LISTED_BYTES * u64::from(REQUESTS + NEEDS))),
+            table: frame.import_buffer("page table", &store.table, true),
+            pages: frame.import_buffer("physical pages", &store.pages, true),
+            views: frame.create_buffer(
+                "page views",
+                BufferDesc::new(VIEWS_HEADER_BYTES + VIEW_BYTES * u64::from(store.size.pages)),
+            ),
+            view: buffers.view.clone(),
+            scratch: Contents::Overwrite,
+        };
+        let validated = store.size.pages.max(plan.coarse.len() as u32).div_ceil(THREADS);
+        let committed = store.clone();
+        self.update(frame, &mut steps, "validate", vec![(&self.validate, validated)], move || {
+            *committed.known() = next;
+        });
+        self.mark(frame, &mut steps, buffers);
+        let allocation = vec![(&self.list, LIST_WORKGROUPS), (&self.allocate, 1)];
+        self.update(frame, &mut steps, "allocate", allocation, || {});
+        let drawn = casters.cull_layers(frame, &mut steps.views, store.size.pages);
+        self.update(frame, &mut steps, "finish", vec![(&self.finish, 4)], || {});
+        let mut depths = frame.import_buffer("page depths", &store.depths, true);
+        draw(frame, casters, &drawn, &steps.views, &mut depths);
+        let pool = self.store(frame, &steps, store, &mut depths);
+        let Steps { projections, levels, lights, table, .. } = steps;
+        FrameBuffers { projections, levels, lights, table, pool }
+    }
+
+    /// Adds a pass with some steps of `pages_update.wgsl`. `recorded` is called when it is recorded.
+    fn update<'f>(
+        &'f self,
+        frame: &mut Frame<'f>,
+        steps: &mut Steps,
+        name: &'static str,
+        dispatches: Vec<(&'f wgpu::ComputePipeline, u32)>,
+        recorded: impl FnOnce() + Send + 'f,
+    ) {
+        let mut pass = frame.compute_pass(name);
+        let view = pass.uniform_buffer(&steps.view);
+        let state = steps.state(&mut pass);
+        let [table, pages] = [&mut steps.table, &mut steps.pages]
+            .map(|buffer| Bind::Buffer(pass.storage_buffer_mut(buffer, Contents::Preserve)));
+        let views = Bind::Buffer(pass.storage_buffer_mut(&mut steps.views, steps.scratch));
+        let update = [table, pages, views];
+        steps.scratch = Contents::Preserve;
+        pass.body(move |ctx| {
+            let groups = [
+                ctx.bind_group(&self.view_layout, &[Bind::Buffer(view)])?,
+                ctx.bind_group(&self.state_layout, &state)?,
+                ctx.bind_group(&self.update_layout, &update)?,
+            ];
+            for (pipeline, workgroups) in dispatches {
+                dispatch(&mut ctx.pass, pipeline, &groups, [workgroups, 1, 1]);
+            }
+            recorded();
+            Ok(())
+        });
+    }
+
+    /// Adds the pass that marks the pages that visible surfaces are read from.
+    fn mark<'f>(&'f self, frame: &mut Frame<'f>, steps: &mut Steps, buffers: &SurfaceBuffers) {
+        let mut pass = frame.compute_pass("mark");
+        let view = pass.uniform_buffer(&steps.view);
+        let state = steps.state(&mut pass);
+        let (surfaces, lights) = (pass.sample(&buffers.surfaces), pass.storage_buffer(&steps.lights));
+        let [width, height] = buffers.size_px.map(|side| side.div_ceil(WORKGROUP_PX));
+        pass.body(move |ctx| {
+            let groups = [
+                ctx.bind_group(&self.view_layout, &[Bind::Buffer(view)])?,
+                ctx.bind_group(&self.state_layout, &state)?,
+                ctx.bind_group(&self.mark_layout, &[Bind::Texture(surfaces), Bind::Buffer(lights)])?,
+            ];
+            dispatch(&mut ctx.pass, &self.mark, &groups, [width, height, 1]);
+            Ok(())
+        });
+    }
+
+    /// Adds the pass that stores drawn pages in the pool.
+    fn store<'f>(
+        &'f self,
+        frame: &mut Frame<'f>,
+        steps: &Steps,
+        store: &PageStore,
+        depths: &mut Buffer,
+    ) -> Texture {
+        let mut pool = frame.import_texture("page pool", &store.pool, true);
+        let [width, height] = store.size.size_px();
+        let size = frame.uniform(bytemuck::cast_slice(&[width, height, store.size.columns, 0]));
+        let mut pass = frame.render_pass("store");
+        let views = pass.storage_buffer(&steps.views);
+        let depths = pass.storage_buffer_mut(depths, Contents::Preserve);
+        let counters = pass.indirect_buffer(&steps.counters);
+        pass.depth(&mut pool, Contents::Preserve);
+        pass.body(move |ctx| {
+            let bindings = [Bind::Buffer(views), Bind::Buffer(depths), Bind::Uniform(size)];
+            let group = ctx.bind_group(&self.store_layout, &bindings)?;
+            ctx.pass.set_pipeline(&self.store);
+            ctx.pass.set_bind_group(0, &group, &[]);
+            let counters = ctx.buffer(counters)?;
+            ctx.pass.draw_indirect(counters, 0);
+            Ok(())
+        });
+        pool
+    }
+}
+
+/// Adds the pass that draws the casters of pages.
+fn draw<'f>(
+    frame: &mut Frame<'f>,
+    casters: &'f dyn LayeredCasters,
+    drawn: &crate::layered_casters::LayeredInstances,
+    views: &Buffer,
+    depths: &mut Buffer,
+) {
+    let mut target = frame.create_texture("page", TextureDesc::d2(PAGE_PX, PAGE_PX, Format::R8Unorm));
+    let vertices = VertexBuffers::published_in(frame);
+    let mut pass = frame.render_pass("draw");
+    vertices.read_in(&mut pass);
+    let tokens = LayerTokens {
+        views: pass.storage_buffer(views),
+        depths: pass.storage_buffer_mut(depths, Contents::Preserve),
+        draws: pass.storage_buffer(&drawn.draws),
+        pairs: pass.storage_buffer(&drawn.pairs),
+    };
+    pass.indirect_buffer(&drawn.draws);
+    pass.color(&mut target, Contents::clear_color([0.0; 4]));
+    pass.body(move |ctx| casters.draw_layers(ctx, tokens).map(|_| ()));
+}
+
+/// The resources that the passes of a frame share.
+struct Steps {
+    view: Buffer,
+    block: Buffer,
+    projections: Buffer,
+    levels: Buffer,
+    lights: Buffer,
+    marks: Buffer,
+    counters: Buffer,
+    lists: Buffer,
+    table: Buffer,
+    pages: Buffer,
+    views: Buffer,
+    /// What a pass finds in the lists and views: nothing before the first.
+    scratch: Contents,
+}
+
+impl Steps {
+    /// Declares the accesses of group 1.
+    fn state(
+        &mut self,
+        pass: &mut shadowgraph_core::Pass<'_, '_, shadowgraph_core::Compute>,
+    ) -> [Bind<'static>; 6] {
+        let block = Bind::Buffer(pass.uniform_buffer(&self.block));
+        let [projections, levels] =
+            [&self.projections, &self.levels].map(|buffer| Bind::Buffer(pass.storage_buffer(buffer)));
+        let [marks, counters] = [&mut self.marks, &mut self.counters]
+            .map(|buffer| Bind::Buffer(pass.storage_buffer_mut(buffer, Contents::Preserve)));
+        let lists = Bind::Buffer(pass.storage_buffer_mut(&mut self.lists, self.scratch));
+        [block, projections, levels, marks, counters, lists]
+    }
+}
+
+/// Returns the bytes of `PagesFrame` of `pages_state.wgsl`.
+fn frame_block(
+    inputs: &ShadowInputs<'_>,
+    settings: &VirtualSettings,
+    plan: &VirtualPlan,
+    (store, next, changes): (&PageStore, &Known, &Changes),
+) -> Vec<u8> {
+    let mut boxes = Vec::with_capacity(2 * MAX_CHANGED);
+    if let Changes::Within(changed) = changes {
+        for bounds in changed {
+            let center = (bounds.center() - inputs.origin_world).as_vec3();
+            // Rounding of the centre is covered too.
+            let half_size = bounds.half_extent().as_vec3() * 1.000_001 + center.abs() * 1e-6;
+            boxes.extend([center, half_size].map(|part| part.extend(0.0)));
+        }
+    }
+    let changed_count = boxes.len() as u32 / 2;
+    boxes.resize(2 * MAX_CHANGED, glam::Vec4::ZERO);
+    let mut coarse = plan.coarse.clone();
+    coarse.resize(MAX_COARSE, [0; 4]);
+    let header = [
+        next.frame,
+        store.size.pages,
+        store.size.columns,
+        inputs.lights.len() as u32,
+        plan.coarse.len() as u32,
+        changed_count,
+        REQUESTS,
+        NEEDS,
+        settings.level_bias.to_bits(),
+        u32::from(*changes == Changes::Anywhere),
+        0,
+        0,
+    ];
+    [bytemuck::cast_slice(&header), bytemuck::cast_slice(&coarse), bytemuck::cast_slice::<_, u8>(&boxes)]
+        .concat()
+}
+
+fn store_pipeline(device: &wgpu::Device) -> Result<(wgpu::BindGroupLayout, wgpu::RenderPipeline), Error> {
+    let shader = shader(device, "pages_store.wgsl", compose("pages_store.wgsl", &[])?);
+    let buffer = |binding, visibility, ty| wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility,
+        ty: wgpu::BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None },
+        count: None,
+    };
+    let (both, fragment) = (wgpu::ShaderStages::VERTEX_FRAGMENT, wgpu::ShaderStages::FRAGMENT);
+    let storage = |read_only| wgpu::BufferBindingType::Storage { read_only };
+    let store_layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("store pages"),
+        entries: &[
+            buffer(0, both, storage(true)),
+            buffer(1, fragment, storage(false)),
+            buffer(2, both, wgpu::BufferBindingType::Uniform),
+        ],
+    });
+    let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: Some("store pages"),
+        bind_group_layouts: &[Some(&store_layout)],
+        immediate_size: 0,
+    });
+    let pipeline = device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some("store pages"),
+        layout: Some(&pipeline_layout),
+        vertex: wgpu::VertexState {
+            module: &shader,
+            entry_point: Some("vs_store"),
+            compilation_options: Default::default(),
+            buffers: &[],
+        },
+        primitive: wgpu::PrimitiveState::default(),
+        depth_stencil: Some(wgpu::DepthStencilState {
+            format: wgpu::TextureFormat::Depth32Float,
+            depth_write_enabled: Some(true),
+            depth_compare: Some(wgpu::CompareFunction::Always),
+            stencil: wgpu::StencilState::default(),
+            bias: wgpu::DepthBiasState::default(),
+        }),
+        multisample: wgpu::MultisampleState::default(),
+        fragment: Some(wgpu::FragmentState {
+            module: &shader,
+            entry_point: Some("fs_store"),
+            compilation_options: Default::default(),
+            targets: &[],
+        }),
+        multiview_mask: None,
+        cache: None,
+    });
+    Ok((store_layout, pipeline))
+}

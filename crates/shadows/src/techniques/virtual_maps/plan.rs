@@ -1,0 +1,221 @@
+//! What the CPU knows of a frame's virtual shadow maps: projections, lights, and the pages that are always needed.
+
+use glam::{DMat3, DVec2, DVec3};
+use shadowgraph_scene::Aabb;
+
+use super::projections::{
+    DIRECTIONAL_LEVELS, DirectionalLevel, GpuLevel, GpuProjection, LOCAL_LEVELS, LOCAL_TEXELS, Projection,
+    Viewpoint, local_levels, map_position,
+};
+use super::slots::Slots;
+use crate::error::Error;
+use crate::light_params::LightShadowParams;
+use crate::plan::ShadowInputs;
+use crate::planner::{ShadowedLights, shadowed_lights};
+use crate::select::{Candidate, ShadowRange, Shape, Unshadowed, UnshadowedReason, point_face};
+use crate::spot::SpotFit;
+use crate::views::{MAP_ATLAS, ShadowLight};
+
+/// The most pages that are always needed: `MAX_COARSE` of `pages_state.wgsl`.
+pub(super) const MAX_COARSE: usize = 512;
+/// The part of the pool that these pages of all directional lights take.
+const COARSE_PART: u32 = 16;
+/// Their least number for a directional light: four pages contain any view.
+const MIN_COARSE: u32 = 4;
+/// Texels between the cone of a spot light, or the edge of a face, and the edge of the map.
+const LOCAL_MARGIN_TEXELS: f64 = 8.0;
+
+/// A frame's virtual shadow maps.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct VirtualPlan {
+    pub(super) projections: Vec<GpuProjection>,
+    pub(super) levels: Vec<GpuLevel>,
+    /// One for each light of the scene.
+    pub(super) lights: Vec<ShadowLight>,
+    /// Projection, level and place of each page that is always needed.
+    pub(super) coarse: Vec<[i32; 4]>,
+    pub(super) unshadowed: Vec<Unshadowed>,
+    pub(super) slots: Slots,
+    /// The most important light.
+    pub(super) main_light: u32,
+}
+
+impl VirtualPlan {
+    /// Plans a frame after that with these slots. The pool has `page_count` pages, the image is `height_px` high.
+    ///
+    /// # Errors
+    /// For settings or a camera that are out of range.
+    pub(super) fn new(
+        inputs: &ShadowInputs<'_>,
+        previous: &Slots,
+        page_count: u32,
+        height_px: u32,
+    ) -> Result<Self, Error> {
+        let ShadowedLights { mut candidates, mut unshadowed, range } = shadowed_lights(inputs)?;
+        let viewpoint = Viewpoint::new(inputs.camera, height_px, range.distance_m, inputs.origin_world);
+        let view = ViewBounds::new(inputs, &range);
+        let is_directional =
+            |candidate: &&Candidate<'_>| matches!(candidate.shape, Shape::Directional { .. });
+        let suns = candidates.iter().filter(is_directional).count().max(1) as u32;
+        let budget = (page_count / COARSE_PART / suns).max(MIN_COARSE);
+
+        let mut coarse = Vec::new();
+        let mut groups = Vec::new();
+        candidates.retain(|candidate| {
+            let group = projections(inputs, candidate);
+            let own = coarse_pages(&group, &viewpoint, &view, budget);
+            let fits = coarse.len() + own.len() <= MAX_COARSE.min(page_count as usize);
+            if fits {
+                coarse.extend(own.into_iter().map(|page| (groups.len(), page)));
+                groups.push(group);
+            } else {
+                let reason = UnshadowedReason::PoolFull;
+                unshadowed.push(Unshadowed { light: candidate.light, reason });
+            }
+            fits
+        });
+        unshadowed.sort_by_key(|unshadowed| unshadowed.light);
+        let (slots, firsts) = previous.next(&groups);
+        let mut lights = vec![ShadowLight::default(); inputs.lights.len()];
+        for ((candidate, group), first) in candidates.iter().zip(&groups).zip(&firsts) {
+            lights[candidate.light as usize] = light(inputs, candidate, &range, *first, group.len());
+        }
+        let coarse = coarse.into_iter().map(|(group, Coarse { face, level, page: [x, y] })| {
+            [(firsts[group] + face) as i32, level as i32, x, y]
+        });
+        let (projections, levels) = gpu_projections(&slots, &viewpoint);
+        let coarse = coarse.collect();
+        let main_light = candidates.first().map_or(0, |candidate| candidate.light);
+        Ok(Self { projections, levels, lights, coarse, unshadowed, slots, main_light })
+    }
+
+    /// Returns whether no light has shadows.
+    pub(super) fn is_empty(&self) -> bool {
+        self.lights.iter().all(|light| light.view_count == 0)
+    }
+}
+
+/// The bounds of the visible receivers, and their corners.
+struct ViewBounds {
+    bounds: Aabb,
+    corners: [DVec3; 8],
+    receivers: [DVec3; 8],
+}
+
+impl ViewBounds {
+    fn new(inputs: &ShadowInputs<'_>, range: &ShadowRange<'_>) -> Self {
+        let corners = range.corners(range.near_m, range.distance_m);
+        let receivers = inputs.casters.receivers();
+        Self { bounds: Aabb::from_points(corners), corners, receivers: receivers.corners() }
+    }
+
+    /// Returns the rectangle of the visible receivers on the axes of a directional light's maps.
+    fn on_map(&self, light_from_world: &DMat3) -> [DVec2; 2] {
+        let rect = |corners: &[DVec3; 8]| {
+            let points = corners.map(|corner| map_position(light_from_world, corner));
+            let all = points.into_iter();
+            [all.clone().fold(DVec2::MAX, DVec2::min), all.fold(DVec2::MIN, DVec2::max)]
+        };
+        let [view, receivers] = [rect(&self.corners), rect(&self.receivers)];
+        let first = view[0].max(receivers[0]).min(view[1]);
+        [first, view[1].min(receivers[1]).max(first)]
+    }
+}
+
+/// Returns the projections of a light.
+fn projections(inputs: &ShadowInputs<'_>, candidate: &Candidate<'_>) -> Vec<Projection> {
+    let params = LightShadowParams::new(inputs.settings, candidate.own, false);
+    let near_m = params.near_m.unwrap_or(f64::from(inputs.settings.atlas.spot_near_m));
+    let local = |cone, rotation| {
+        Projection::Local(SpotFit::new(cone, rotation, near_m, LOCAL_TEXELS, LOCAL_MARGIN_TEXELS))
+    };
+    match candidate.shape {
+        Shape::Directional { light_from_world } => vec![Projection::Directional { light_from_world }],
+        Shape::Spot { cone, light_from_world } => vec![local(cone, light_from_world)],
+        Shape::Point { position_world, range_m } => {
+            let face = |face| point_face(position_world, range_m, face);
+            (0..6).map(face).map(|(cone, rotation)| local(cone, rotation)).collect()
+        }
+    }
+}
+
+/// A page of the projections of a light.
+struct Coarse {
+    face: u32,
+    level: u32,
+    page: [i32; 2],
+}
+
+/// Returns the pages that cover all that a light has in the view: at most `budget` for a directional light, and the coarsest page of each
+/// face of others.
+fn coarse_pages(
+    projections: &[Projection],
+    viewpoint: &Viewpoint,
+    view: &ViewBounds,
+    budget: u32,
+) -> Vec<Coarse> {
+    let mut pages = Vec::new();
+    for (face, projection) in (0..).zip(projections) {
+        match projection {
+            Projection::Directional { light_from_world } => {
+                let [first_m, last_m] = view.on_map(light_from_world);
+                let span = |level| {
+                    let level = DirectionalLevel::new(light_from_world, viewpoint, level);
+                    [level.page(first_m), level.page(last_m)]
+                };
+                let count = |[first, last]: [[i32; 2]; 2]| {
+                    let sides = [0, 1].map(|axis| f64::from(last[axis]) - f64::from(first[axis]) + 1.0);
+                    sides[0] * sides[1]
+                };
+                let fits = |level: &u32| count(span(*level)) <= f64::from(budget);
+                let level = (0..DIRECTIONAL_LEVELS).find(fits).unwrap_or(DIRECTIONAL_LEVELS - 1);
+                let [first, last] = span(level);
+                let rows = first[1]..=last[1];
+                pages.extend(
+                    rows.flat_map(|y| {
+                        (first[0]..=last[0]).map(move |x| Coarse { face, level, page: [x, y] })
+                    }),
+                );
+            }
+            Projection::Local(fit) => {
+                if fit.cull_volume().intersects(&view.bounds) {
+                    pages.push(Coarse { face, level: LOCAL_LEVELS - 1, page: [0, 0] });
+                }
+            }
+        }
+    }
+    pages
+}
+
+fn light(
+    inputs: &ShadowInputs<'_>,
+    candidate: &Candidate<'_>,
+    range: &ShadowRange<'_>,
+    first: u32,
+    count: usize,
+) -> ShadowLight {
+    let is_directional = matches!(candidate.shape, Shape::Directional { .. });
+    let params = LightShadowParams::new(inputs.settings, candidate.own, is_directional);
+    let light = ShadowLight::with_params(&params, range.distance_m);
+    let eye = (range.camera.position_world() - inputs.origin_world).as_vec3().to_array();
+    ShadowLight { map: MAP_ATLAS, first_view: first, view_count: count as u32, eye, ..light }
+}
+
+/// Returns the projections and levels that shaders read.
+fn gpu_projections(slots: &Slots, viewpoint: &Viewpoint) -> (Vec<GpuProjection>, Vec<GpuLevel>) {
+    let mut levels: Vec<GpuLevel> = local_levels().collect();
+    let projections = slots.placed().map(|placed| {
+        let Some(placed) = placed else { return bytemuck::Zeroable::zeroed() };
+        let projection = placed.projection;
+        let mut gpu = projection.gpu(viewpoint);
+        if let Projection::Directional { light_from_world } = &projection {
+            gpu.first_level = levels.len() as u32;
+            let all = 0..projection.level_count();
+            levels.extend(all.map(|level| {
+                DirectionalLevel::new(light_from_world, viewpoint, level).gpu(light_from_world, viewpoint)
+            }));
+        }
+        GpuProjection { first_entry: placed.first_entry, version: placed.version, ..gpu }
+    });
+    (projections.collect(), levels)
+}

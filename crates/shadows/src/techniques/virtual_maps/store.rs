@@ -1,0 +1,220 @@
+//! What is kept on the GPU from frame to frame, and what the CPU knows about it.
+
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use glam::DVec3;
+use shadowgraph_scene::Aabb;
+
+use super::projections::PAGE_PX;
+use super::slots::Slots;
+use crate::casters::ShadowCasters;
+use crate::layered_casters::LayeredCasters;
+
+/// The bytes of a page of depth.
+const PAGE_BYTES: u64 = PAGE_PX as u64 * PAGE_PX as u64 * 4;
+/// Words of a physical page: `PhysicalPage` of `pages_update.wgsl`.
+const PHYSICAL_PAGE_BYTES: u64 = 32;
+/// Words before the entries of the table: `PageTable` of `shadows/virtual.wgsl`.
+const TABLE_HEADER_WORDS: u64 = 4;
+/// The most changed boxes: `MAX_CHANGED` of `pages_state.wgsl`.
+pub(super) const MAX_CHANGED: usize = 256;
+
+/// The physical pages of a pool.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct PoolSize {
+    /// Pages along the width.
+    pub(super) columns: u32,
+    pub(super) rows: u32,
+    /// Number of pages.
+    pub(super) pages: u32,
+}
+
+impl PoolSize {
+    /// Returns the pool that fits into some memory.
+    ///
+    /// # Errors
+    /// The largest number of MiB for textures and buffers within the limits.
+    pub(super) fn new(mib: u32, limits: &wgpu::Limits) -> Result<Self, u32> {
+        let of = |mib: u32| (u64::from(mib) << 20) / PAGE_BYTES;
+        let most_columns = limits.max_texture_dimension_2d / PAGE_PX;
+        let bytes = limits.max_buffer_size.min(limits.max_storage_buffer_binding_size);
+        // Places are 16 bits, and 0 is none.
+        let most = u64::from(most_columns).pow(2).min(bytes / PAGE_BYTES).min(65_535);
+        let pages = of(mib);
+        if pages > most {
+            let largest = (0..mib).rev().find(|&mib| of(mib) <= most);
+            return Err(largest.unwrap_or(0));
+        }
+        let pages = pages as u32;
+        let columns = (f64::from(pages).sqrt().ceil() as u32).min(most_columns);
+        Ok(Self { columns, rows: pages.div_ceil(columns), pages })
+    }
+
+    /// Returns the size of the texture, pixels.
+    pub(super) fn size_px(&self) -> [u32; 2] {
+        [self.columns, self.rows].map(|pages| pages * PAGE_PX)
+    }
+}
+
+/// The buffers of a view, and what has been drawn into them.
+pub(super) struct PageStore {
+    pub(super) size: PoolSize,
+    pub(super) pool: wgpu::Texture,
+    /// `PageTable`.
+    pub(super) table: wgpu::Buffer,
+    /// Two words for each entry.
+    pub(super) marks: wgpu::Buffer,
+    /// `PhysicalPage`s.
+    pub(super) pages: wgpu::Buffer,
+    /// Depths of the pages that a frame draws; 0 between frames.
+    pub(super) depths: wgpu::Buffer,
+    entry_count: u32,
+    known: Mutex<Known>,
+}
+
+/// What the last recorded frame has left.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Known {
+    /// Its number; 0 before the first.
+    pub(super) frame: u32,
+    pub(super) origin_world: DVec3,
+    pub(super) slots: Slots,
+    static_version: u64,
+    /// The version and the bounds of each moving caster.
+    moving: BTreeMap<u32, (Option<u64>, Aabb)>,
+}
+
+impl PageStore {
+    pub(super) fn new(device: &wgpu::Device, size: PoolSize, entry_count: u32) -> Self {
+        let [width, height] = size.size_px();
+        let pool = device.create_texture(&wgpu::TextureDescriptor {
+            label: Some("page pool"),
+            size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: wgpu::TextureFormat::Depth32Float,
+            usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::RENDER_ATTACHMENT,
+            view_formats: &[],
+        });
+        let buffer = |label, size| {
+            let usage = wgpu::BufferUsages::STORAGE;
+            device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some(label),
+                size,
+                usage,
+                mapped_at_creation: false,
+            })
+        };
+        let (pages, entries) = (u64::from(size.pages), u64::from(entry_count.max(1)));
+        Self {
+            size,
+            pool,
+            table: buffer("page table", 4 * (TABLE_HEADER_WORDS + entries)),
+            marks: buffer("page marks", 8 * entries),
+            pages: buffer("physical pages", PHYSICAL_PAGE_BYTES * pages),
+            depths: buffer("page depths", PAGE_BYTES * pages),
+            entry_count,
+            known: Mutex::default(),
+        }
+    }
+
+    /// Returns whether it has this pool and as many entries.
+    pub(super) fn fits(&self, size: PoolSize, entry_count: u32) -> bool {
+        self.size == size && self.entry_count >= entry_count
+    }
+
+    pub(super) fn known(&self) -> MutexGuard<'_, Known> {
+        self.known.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// The casters that have changed since a frame.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Changes {
+    /// They are within these bounds.
+    Within(Vec<Aabb>),
+    /// They may be anywhere.
+    Anywhere,
+}
+
+impl Known {
+    /// Returns what a frame with these casters leaves, and what has changed before it.
+    pub(super) fn next(
+        &self,
+        casters: (&dyn ShadowCasters, &dyn LayeredCasters),
+        origin_world: DVec3,
+        slots: Slots,
+    ) -> (Self, Changes) {
+        let (all, layered) = casters;
+        let mut numbers = Vec::new();
+        layered.all_moving(&mut numbers);
+        let state = |caster: u32| (caster, (all.version(caster), all.caster_bounds(caster)));
+        let moving: BTreeMap<_, _> = numbers.into_iter().map(state).collect();
+        let next = Self {
+            frame: self.frame + 1,
+            origin_world,
+            slots,
+            static_version: layered.static_version(),
+            moving,
+        };
+        let changes = if self.frame == 0 || self.origin_world != origin_world {
+            Changes::Anywhere
+        } else {
+            self.changes(&next, layered)
+        };
+        (next, changes)
+    }
+
+    fn changes(&self, next: &Self, layered: &dyn LayeredCasters) -> Changes {
+        let mut bounds = Vec::new();
+        if !layered.static_changes(self.static_version, &mut bounds) {
+            return Changes::Anywhere;
+        }
+        let stands =
+            |states: &BTreeMap<_, (Option<u64>, Aabb)>, caster: &u32, state: &(Option<u64>, Aabb)| {
+                state.0.is_some() && states.get(caster) == Some(state)
+            };
+        let before = self.moving.iter().filter(|(caster, state)| !stands(&next.moving, caster, state));
+        let after = next.moving.iter().filter(|(caster, state)| !stands(&self.moving, caster, state));
+        bounds.extend(before.chain(after).map(|(_, (_, bounds))| *bounds));
+        bounds.retain(|bounds| !bounds.is_empty());
+        if bounds.len() > MAX_CHANGED { Changes::Within(merged(bounds)) } else { Changes::Within(bounds) }
+    }
+}
+
+/// Returns at most [`MAX_CHANGED`] boxes that contain all others.
+fn merged(bounds: Vec<Aabb>) -> Vec<Aabb> {
+    let per_box = bounds.len().div_ceil(MAX_CHANGED);
+    let union = |part: &[Aabb]| part.iter().fold(Aabb::EMPTY, |all, bounds| all.union(bounds));
+    bounds.chunks(per_box).map(union).collect()
+}
+
+/// The stores of views.
+#[derive(Default)]
+pub(super) struct Stores(Mutex<BTreeMap<u32, Arc<PageStore>>>);
+
+impl Stores {
+    /// Returns the store of a view in its previous frame.
+    pub(super) fn previous(&self, view: u32) -> Option<Arc<PageStore>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).get(&view).cloned()
+    }
+
+    /// Returns the store of a view, a new one if that of its previous frame does not fit.
+    pub(super) fn fitting(
+        &self,
+        device: &wgpu::Device,
+        view: u32,
+        size: PoolSize,
+        entry_count: u32,
+    ) -> Arc<PageStore> {
+        let mut stores = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(store) = stores.get(&view).filter(|store| store.fits(size, entry_count)) {
+            return store.clone();
+        }
+        let store = Arc::new(PageStore::new(device, size, entry_count));
+        stores.insert(view, store.clone());
+        store
+    }
+}

@@ -1,0 +1,386 @@
+// Brings the pages of virtual shadow maps up to date: finds out which pages a frame needs, and gives each a physical page.
+//
+//   cs_validate   frees the pages that are stale, and lists the coarse pages that are always needed
+//   cs_list       lists the pages that are needed for what pixels request, at each coarsening
+//   cs_allocate   chooses the least coarsening at which they fit into the pool, and gives pages that are not resident a place
+//   cs_finish     frees the pages that are not drawn after all
+//
+// All but cs_allocate run in any number of workgroups.
+#import shadowgraph::shadows::pages::{
+    BORDER_TEXELS, Level, PAGE_PX, PAGE_TEXELS, Page, Projection, entry_of, has_entry, parent_of,
+}
+#import shadowgraph::layer_views::LayerViews
+#import shadowgraph::pages_state::{
+    ListedPage, counters, level_of, levels, lists, marks, pages_frame, projections, frame_stamp,
+}
+
+// A physical page. 32 bytes.
+struct PhysicalPage {
+    page: Page,
+    // That of the projection when the page was drawn; 0: the page is free.
+    version: u32,
+    // That of its level.
+    exponent: i32,
+    // The last frame that needed it.
+    last_frame: u32,
+    // The index of its entry.
+    entry: u32,
+}
+
+// See PageTable of shadows/virtual.wgsl.
+struct PageTable {
+    stamp: u32,
+    coarsening: u32,
+    pool_columns: u32,
+    level_bias: f32,
+    entries: array<u32>,
+}
+
+@group(2) @binding(0) var<storage, read_write> page_table: PageTable;
+@group(2) @binding(1) var<storage, read_write> physical_pages: array<PhysicalPage>;
+@group(2) @binding(2) var<storage, read_write> page_views: LayerViews;
+
+const THREADS: u32 = 256u;
+// Coarsenings, and levels by which the coarsest is coarser.
+const COARSENINGS: u32 = 32u;
+const COARSER_LEVELS: u32 = 8u;
+// The age of a free page; those of others are less.
+const FREE: u32 = 255u;
+const MAX_LEVELS: u32 = 16u;
+
+// Lists a page that is needed at some coarsenings, a bit for each.
+fn need(page: Page, bits: u32) {
+    let projection = projections[page.projection];
+    let level = levels[projection.first_level + page.level];
+    if bits == 0u || !has_entry(level, page.place) {
+        return;
+    }
+    let entry = entry_of(projection, level, page.place);
+    if atomicOr(&marks[2u * entry + 1u], bits) == 0u {
+        let index = atomicAdd(&counters.listed, 1u);
+        if index < pages_frame.need_capacity {
+            lists[pages_frame.request_capacity + index] = ListedPage(page, entry, 0u);
+        } else {
+            atomicStore(&marks[2u * entry + 1u], 0u);
+        }
+    }
+}
+
+// Whether bounds intersect what is drawn into a page.
+fn touches(page: Page, center: vec3f, half_size: vec3f) -> bool {
+    let clip = clip_from_world(page);
+    let rows = array(
+        vec4f(clip[0].x, clip[1].x, clip[2].x, clip[3].x), vec4f(clip[0].y, clip[1].y, clip[2].y, clip[3].y),
+        vec4f(clip[0].z, clip[1].z, clip[2].z, clip[3].z), vec4f(clip[0].w, clip[1].w, clip[2].w, clip[3].w),
+    );
+    let planes = array(rows[3] + rows[0], rows[3] - rows[0], rows[3] + rows[1], rows[3] - rows[1], rows[2]);
+    for (var i = 0u; i < 5u; i++) {
+        let plane = planes[i];
+        let reach = dot(abs(plane.xyz), half_size);
+        let terms = dot(abs(plane.xyz), abs(center)) + abs(plane.w) + reach;
+        if dot(plane.xyz, center) + plane.w + reach < -1e-5 * terms {
+            return false;
+        }
+    }
+    return true;
+}
+
+fn is_changed(page: Page) -> bool {
+    for (var i = 0u; i < pages_frame.changed_count; i++) {
+        if touches(page, pages_frame.changed[2u * i].xyz, pages_frame.changed[2u * i + 1u].xyz) {
+            return true;
+        }
+    }
+    return false;
+}
+
+fn free(index: u32) {
+    let entry = physical_pages[index].entry;
+    if (page_table.entries[entry] & 0xffffu) == index + 1u {
+        page_table.entries[entry] = 0u;
+    }
+    physical_pages[index].version = 0u;
+}
+
+@compute @workgroup_size(64)
+fn cs_validate(@builtin(global_invocation_id) id: vec3u) {
+    if id.x < pages_frame.coarse_count {
+        let coarse = pages_frame.coarse[id.x];
+        need(Page(u32(coarse.x), u32(coarse.y), coarse.zw), 0xffffffffu);
+    }
+    let index = id.x;
+    if index >= pages_frame.page_count || physical_pages[index].version == 0u {
+        return;
+    }
+    let known = physical_pages[index];
+    let projection = projections[known.page.projection];
+    var is_valid = pages_frame.is_reset == 0u && projection.version == known.version;
+    if is_valid {
+        // The level with these texels may have another number.
+        let number = known.exponent - levels[projection.first_level].exponent;
+        let page = Page(known.page.projection, u32(number), known.page.place);
+        is_valid = number >= 0 && number < i32(projection.level_count) && has_entry(level_of(page), page.place)
+            && !is_changed(page);
+        physical_pages[index].page = page;
+    }
+    if !is_valid {
+        free(index);
+    }
+}
+
+// The bits of coarsenings from `begin` to before `end`.
+fn between(begin: i32, end: i32) -> u32 {
+    let from_begin = 0xffffffffu << u32(clamp(begin, 0, 31));
+    let from_end = select(0xffffffffu << u32(clamp(end, 0, 31)), 0u, end > 31);
+    return select(from_begin & ~from_end, 0u, begin > 31 || end <= 0);
+}
+
+@compute @workgroup_size(64)
+fn cs_list(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) groups: vec3u) {
+    let count = min(atomicLoad(&counters.requested), pages_frame.request_capacity);
+    for (var index = id.x; index < count; index += 64u * groups.x) {
+        let entry = lists[index].entry;
+        let quarters = atomicExchange(&marks[2u * entry], 0u);
+        var page = lists[index].page;
+        let last = projections[page.projection].level_count - 1u;
+        for (var coarser = 0; coarser <= i32(COARSER_LEVELS); coarser++) {
+            var bits = 0u;
+            for (var quarter = 0; quarter < 4; quarter++) {
+                if (quarters & (1u << u32(quarter))) != 0u {
+                    // A level is also blended with the finer one, in the last quarter of that.
+                    let begin = 4 * coarser - quarter - 1;
+                    bits |= between(begin, select(begin + 5, 32, page.level == last));
+                }
+            }
+            need(page, bits);
+            if page.level == last {
+                break;
+            }
+            page = parent_of(page, level_of(page));
+        }
+    }
+}
+
+var<workgroup> counts: array<atomic<u32>, 256>;
+var<workgroup> sums: array<u32, 512>;
+var<workgroup> level_begins: array<atomic<u32>, MAX_LEVELS>;
+var<workgroup> missing: u32;
+var<workgroup> oldest: u32;
+var<workgroup> older: u32;
+var<workgroup> coarsening: u32;
+
+fn listed_count() -> u32 {
+    return min(atomicLoad(&counters.listed), pages_frame.need_capacity);
+}
+
+fn listed(index: u32) -> ListedPage {
+    return lists[pages_frame.request_capacity + index];
+}
+
+// The place of a resident page in the pool plus 1, or 0.
+fn resident(entry: u32) -> u32 {
+    return page_table.entries[entry] & 0xffffu;
+}
+
+fn age_of(index: u32) -> u32 {
+    let page = physical_pages[index];
+    if page.version == 0u {
+        return FREE;
+    }
+    return min(pages_frame.frame - page.last_frame, FREE - 1u);
+}
+
+// Whether the page is needed at the frame's coarsening.
+fn is_needed(entry: u32) -> bool {
+    return (atomicLoad(&marks[2u * entry + 1u]) & (1u << coarsening)) != 0u;
+}
+
+fn choose_coarsening(local: u32) {
+    atomicStore(&counts[local], 0u);
+    workgroupBarrier();
+    for (var index = local; index < listed_count(); index += THREADS) {
+        var bits = atomicLoad(&marks[2u * listed(index).entry + 1u]);
+        while bits != 0u {
+            atomicAdd(&counts[firstTrailingBit(bits)], 1u);
+            bits &= bits - 1u;
+        }
+    }
+    workgroupBarrier();
+    if local == 0u {
+        coarsening = 0u;
+        while coarsening < COARSENINGS - 1u && atomicLoad(&counts[coarsening]) > pages_frame.page_count {
+            coarsening++;
+        }
+        counters.needed = atomicLoad(&counts[coarsening]);
+        counters.coarsening = coarsening;
+        page_table.coarsening = coarsening;
+        page_table.stamp = frame_stamp();
+        page_table.pool_columns = pages_frame.pool_columns;
+        page_table.level_bias = pages_frame.level_bias;
+    }
+    workgroupBarrier();
+}
+
+// Stamps the entries of needed pages that are resident, and counts the others by level.
+fn stamp_resident(local: u32) {
+    if local < MAX_LEVELS {
+        atomicStore(&level_begins[local], 0u);
+    }
+    workgroupBarrier();
+    for (var index = local; index < listed_count(); index += THREADS) {
+        let needed = listed(index);
+        if is_needed(needed.entry) {
+            let place = resident(needed.entry);
+            if place != 0u {
+                page_table.entries[needed.entry] = (frame_stamp() << 16u) | place;
+                physical_pages[place - 1u].last_frame = pages_frame.frame;
+            } else {
+                atomicAdd(&level_begins[needed.page.level], 1u);
+            }
+        }
+    }
+    storageBarrier();
+    workgroupBarrier();
+    if local == 0u {
+        // Coarse levels come first.
+        var sum = 0u;
+        for (var level = MAX_LEVELS; level > 0u; level--) {
+            let count = atomicLoad(&level_begins[level - 1u]);
+            atomicStore(&level_begins[level - 1u], sum);
+            sum += count;
+        }
+        missing = min(sum, pages_frame.page_count);
+    }
+    workgroupBarrier();
+}
+
+// Finds as many pages as are missing, free ones and then those that were not needed for the longest time.
+fn find_places(local: u32) {
+    atomicStore(&counts[local], 0u);
+    workgroupBarrier();
+    let share = (pages_frame.page_count + THREADS - 1u) / THREADS;
+    let begin = min(local * share, pages_frame.page_count);
+    let end = min(begin + share, pages_frame.page_count);
+    for (var index = begin; index < end; index++) {
+        atomicAdd(&counts[age_of(index)], 1u);
+    }
+    workgroupBarrier();
+    if local == 0u {
+        var sum = 0u;
+        var age = FREE;
+        while age > 0u && sum + atomicLoad(&counts[age]) < missing {
+            sum += atomicLoad(&counts[age]);
+            age--;
+        }
+        oldest = age;
+        older = sum;
+        // Age 0 is that of pages that this frame needs.
+        missing = min(missing, select(sum + atomicLoad(&counts[age]), sum, age == 0u));
+        counters.resident = pages_frame.page_count - atomicLoad(&counts[FREE]);
+    }
+    workgroupBarrier();
+    var above = 0u;
+    var equal = 0u;
+    for (var index = begin; index < end; index++) {
+        let age = age_of(index);
+        above += u32(age > oldest);
+        equal += u32(age == oldest);
+    }
+    sums[local] = above;
+    sums[THREADS + local] = equal;
+    workgroupBarrier();
+    for (var step = 1u; step < THREADS; step *= 2u) {
+        var before = vec2u(0u);
+        if local >= step {
+            before = vec2u(sums[local - step], sums[THREADS + local - step]);
+        }
+        workgroupBarrier();
+        sums[local] += before.x;
+        sums[THREADS + local] += before.y;
+        workgroupBarrier();
+    }
+    var rank_above = sums[local] - above;
+    var rank_equal = older + sums[THREADS + local] - equal;
+    for (var index = begin; index < end; index++) {
+        let age = age_of(index);
+        if age > oldest && rank_above < missing {
+            page_views.views[rank_above].tag = index;
+            rank_above++;
+        } else if age == oldest && rank_equal < missing {
+            page_views.views[rank_equal].tag = index;
+            rank_equal++;
+        }
+    }
+    storageBarrier();
+    workgroupBarrier();
+}
+
+// Gives the missing pages their places.
+fn assign(local: u32) {
+    for (var index = local; index < listed_count(); index += THREADS) {
+        let needed = listed(index);
+        if !is_needed(needed.entry) || resident(needed.entry) != 0u {
+            continue;
+        }
+        let rank = atomicAdd(&level_begins[needed.page.level], 1u);
+        if rank >= missing {
+            continue;
+        }
+        let place = page_views.views[rank].tag;
+        if physical_pages[place].version != 0u {
+            free(place);
+        }
+        let level = level_of(needed.page);
+        let version = projections[needed.page.projection].version;
+        physical_pages[place] =
+            PhysicalPage(needed.page, version, level.exponent, pages_frame.frame, needed.entry);
+        page_table.entries[needed.entry] = (frame_stamp() << 16u) | (place + 1u);
+        page_views.views[rank].clip_from_world = clip_from_world(needed.page);
+        let texel = (needed.page.place + level.base) * i32(PAGE_TEXELS) - i32(BORDER_TEXELS);
+        page_views.views[rank].noise_px = vec2u(texel & vec2i(1023));
+    }
+    storageBarrier();
+    workgroupBarrier();
+}
+
+// From positions to the clip space of a page.
+fn clip_from_world(page: Page) -> mat4x4f {
+    let projection = projections[page.projection];
+    let level = level_of(page);
+    let half_px = 0.5 * f32(PAGE_PX);
+    let scale = ldexp(1.0, -i32(page.level)) / half_px;
+    let center = PAGE_TEXELS * (vec2f(page.place) + 0.5) - level.phase;
+    let x = projection.x * scale - projection.w * (center.x / half_px);
+    let y = projection.w * (center.y / half_px) - projection.y * scale;
+    let z = projection.z * level.depth_scale + projection.w * level.depth_offset;
+    return transpose(mat4x4f(x, y, z, projection.w));
+}
+
+@compute @workgroup_size(256)
+fn cs_allocate(@builtin(local_invocation_index) local: u32) {
+    choose_coarsening(local);
+    stamp_resident(local);
+    find_places(local);
+    assign(local);
+    for (var index = local; index < listed_count(); index += THREADS) {
+        atomicStore(&marks[2u * listed(index).entry + 1u], 0u);
+    }
+    if local == 0u {
+        page_views.count = missing;
+        page_views.side_px = PAGE_PX;
+        counters.missing = missing;
+    }
+}
+
+@compute @workgroup_size(64)
+fn cs_finish(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) groups: vec3u) {
+    for (var index = page_views.drawn + id.x; index < page_views.count; index += 64u * groups.x) {
+        free(page_views.views[index].tag);
+    }
+    if id.x == 0u {
+        counters.vertex_count = 6u;
+        counters.drawn = page_views.drawn;
+        counters.first_vertex = 0u;
+        counters.first_instance = 0u;
+    }
+}

@@ -1,0 +1,134 @@
+// Pages of virtual shadow maps. The map of a projection has levels, each with texels twice as wide as those of the level before. A level is
+// a grid of pages; those that are resident have a place in the pool of physical pages.
+#define_import_path shadowgraph::shadows::pages
+#import shadowgraph::shadows::types::ShadowLight
+
+// Texels along a page without its border, the border on each side, and with both.
+const PAGE_TEXELS: f32 = 128.0;
+const BORDER_TEXELS: f32 = 4.0;
+const PAGE_PX: u32 = 136u;
+// Levels are blended over this last part of the range of pixels that they serve.
+const BLEND_PART: f32 = 0.25;
+// Steps of a level in which all levels are coarsened while the pool is too small.
+const COARSENING_STEPS: f32 = 4.0;
+
+// A projection of a light: that of a directional or of a spot light, or a face of a point light. 160 bytes.
+struct Projection {
+    // Rows of the matrix from positions to x (right) and y (down), in texels of level 0, depth, and w, by which they are divided.
+    x: vec4f,
+    y: vec4f,
+    z: vec4f,
+    w: vec4f,
+    // Directional: the camera as x, y (texels of level 0) and z; others: the light's position.
+    center: vec3f,
+    // The range of a spot or point light, metres.
+    range_m: f32,
+    // Unit axes of the map, and the direction to the light.
+    right: vec3f,
+    // The width of a texel of level 0, metres; for spot and point lights at 1 m along the axis.
+    texel_m: f32,
+    down: vec3f,
+    // Change of z/w over that length towards the light; for spot and point lights times w.
+    depth_per_texel: f32,
+    to_light: vec3f,
+    // 1: w is the distance along the axis.
+    is_perspective: u32,
+    // The first of its levels, and their number.
+    first_level: u32,
+    level_count: u32,
+    // The first of its entries of the table.
+    first_entry: u32,
+    // Changes with the light: pages of another version are stale. 0: the projection is unused.
+    version: u32,
+}
+
+// A level of a map. Page 0 of a directional light contains the frame's origin; that of others is at the top left. 48 bytes.
+struct Level {
+    // The point with x = y = 0, texels of this level.
+    phase: vec2f,
+    // Added to pages to find their entry: entries wrap around.
+    base: vec2i,
+    // The first page that has an entry.
+    first_page: vec2i,
+    // Depth in the map: z/w times the scale, plus the offset.
+    depth_scale: f32,
+    depth_offset: f32,
+    // The first entry, from that of the projection.
+    first_entry: u32,
+    // The logarithm to base 2 of the number of pages along each side.
+    side_shift: u32,
+    // The exponent of its texels: equal levels of different frames have equal exponents.
+    exponent: i32,
+    // The smallest difference of depths.
+    depth_step: f32,
+}
+
+// A page of a level of a projection.
+struct Page {
+    projection: u32,
+    level: u32,
+    place: vec2i,
+}
+
+// The entry of a page in the table.
+fn entry_of(projection: Projection, level: Level, place: vec2i) -> u32 {
+    let side = 1u << level.side_shift;
+    let wrapped = vec2u(place + level.base) & vec2u(side - 1u);
+    return projection.first_entry + level.first_entry + (wrapped.y << level.side_shift) + wrapped.x;
+}
+
+// Whether a page has an entry.
+fn has_entry(level: Level, place: vec2i) -> bool {
+    let offset = vec2u(place - level.first_page);
+    return all(offset < vec2u(1u << level.side_shift));
+}
+
+// A point in a projection.
+struct MapPoint {
+    // Texels of level 0, and z/w.
+    position: vec3f,
+    w: f32,
+}
+
+fn project(projection: Projection, position: vec3f) -> MapPoint {
+    let p = vec4f(position, 1.0);
+    let w = dot(projection.w, p);
+    let divided = vec3f(dot(projection.x, p), dot(projection.y, p), dot(projection.z, p)) / w;
+    return MapPoint(divided, w);
+}
+
+// The position of a point in a level, texels.
+fn in_level(point: MapPoint, level_index: u32, level: Level) -> vec2f {
+    return ldexp(point.position.xy, vec2i(-i32(level_index))) + level.phase;
+}
+
+// The page of a position in a level.
+fn page_of(texels: vec2f) -> vec2i {
+    return vec2i(floor(texels / PAGE_TEXELS));
+}
+
+// The level for a pixel of this width, metres: its texels are at most as wide. The fraction says how near it is to the next level.
+fn wanted_level(projection: Projection, point: MapPoint, pixel_m: f32) -> f32 {
+    var level = log2(pixel_m / (projection.texel_m * point.w));
+    if projection.is_perspective == 0u {
+        // The level covers the point: 62 of the 64 pages on each side of the camera, and far more along the light.
+        let offset = abs(point.position - projection.center) * vec3f(1.0, 1.0, 0.03125 / projection.texel_m);
+        level = max(level, ceil(log2(max(max(offset.x, offset.y), offset.z) / (62.0 * PAGE_TEXELS))));
+    }
+    return clamp(level, 0.0, f32(projection.level_count - 1u));
+}
+
+// A receiver, moved along its normal by the bias of a level.
+fn biased(projection: Projection, light: ShadowLight, level: u32, position: vec3f, normal: vec3f) -> vec3f {
+    let from_point = normalize(projection.center - position);
+    let to_light = select(projection.to_light, from_point, projection.is_perspective == 1u);
+    let cosine = dot(normal, to_light);
+    let sine = select(1.0, sqrt(saturate(1.0 - cosine * cosine)), light.normal_sine == 1u);
+    let w = max(dot(projection.w, vec4f(position, 1.0)), 0.0);
+    return position + normal * (light.normal_bias_texels * sine * ldexp(projection.texel_m * w, i32(level)));
+}
+
+// The page of the next level that contains a page.
+fn parent_of(page: Page, level: Level) -> Page {
+    return Page(page.projection, page.level + 1u, (page.place + (level.base & vec2i(1))) >> vec2u(1u));
+}
