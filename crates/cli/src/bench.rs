@@ -131,7 +131,7 @@ fn table(comparison: &Comparison) -> String {
     ];
     let counts = comparison.counts;
     let heading = format!(
-        "CPU time of a frame of {} render passes, {} uploads and {} draws, culled by the CPU; wgpu's noop device, no driver\n",
+        "CPU time of a frame of {} render passes, {} uploads and {} draws, culled by the CPU; noop device\n",
         counts.passes, counts.uploads, counts.draws
     );
     let count = format!("{} frames each", comparison.graph.len());

@@ -16,7 +16,7 @@ const GROUP: u32 = 64;
 const MAX_WORKGROUPS: u32 = 4096;
 /// The size of a pair of an instance and a view, bytes.
 const PAIR_BYTES: u64 = 8;
-/// The fewest pairs that lists have room for.
+/// The least capacity of the list of pairs.
 const MIN_PAIRS: u32 = 1 << 18;
 
 /// The instances that are culled for layers.
@@ -84,8 +84,8 @@ impl LayerCullPass {
         Ok(Self { device: device.clone(), shader, layout, pipelines: OnceLock::new() })
     }
 
-    /// Adds the pass. It writes the number of views that are drawn: fewer than there are if more instances are in them than the lists have
-    /// room for.
+    /// Adds the pass. It writes the number of views that are drawn: fewer than there are if they have more instances than fit into the list
+    /// of pairs.
     pub fn add_to<'f>(
         &'f self,
         frame: &mut Frame<'f>,

@@ -10,7 +10,7 @@ use shadowgraph::options::Aov;
 use shadowgraph::scene::{
     AlphaMode, CasterMode, Image, Instance, Light, LightKind, Material, Mesh, Scene, TextureRef, Vertex,
 };
-use shadowgraph::shadows::{EVSM, NONE, PCF, PCSS, RAYTRACED, Technique, Techniques};
+use shadowgraph::shadows::{EVSM, NONE, PCF, PCSS, RAYTRACED, Technique, Techniques, VIRTUAL};
 use shadowgraph::{Gpu, RenderConfig, RenderedImage, Renderer, ViewOptions};
 use shadowgraph_samples::demo::demo_scene;
 
@@ -64,7 +64,9 @@ fn every_technique_and_pipeline_renders_every_mix_of_lights_and_casters() {
             println!("{line}");
             let has_shadows = MIXES[column] != "no light";
             let shows_none = config.technique() == NONE && has_shadows && lighter < 0.05;
-            if wrong_part > 0.03 || shows_none {
+            // Without the colours of translucent casters.
+            let allowed = if config.technique().name() == VIRTUAL.name { 0.04 } else { 0.03 };
+            if wrong_part > allowed || shows_none {
                 wrong.push(line);
             }
         }

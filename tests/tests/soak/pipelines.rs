@@ -162,7 +162,8 @@ fn changing_pipelines_sizes_techniques_lights_and_objects_leaks_no_memory() {
     let mut renderers = 0;
     soak(&gpu, frames, |_| {
         let now = allocated();
-        assert!(now <= before + (1 << 20), "{now} bytes are allocated, {before} were before");
+        // wgpu keeps some buffers of 1 MiB in which it validates indirect draws.
+        assert!(now <= before + (8 << 20), "{now} bytes are allocated, {before} were before");
         renderers += 1;
     });
     println!(

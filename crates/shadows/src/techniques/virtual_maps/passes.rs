@@ -6,7 +6,7 @@ use shadowgraph_shaders::compose;
 use super::plan::{MAX_COARSE, VirtualPlan};
 use super::projections::PAGE_PX;
 use super::settings::VirtualSettings;
-use super::store::{Changes, Known, MAX_CHANGED, PageStore};
+use super::store::{Changes, MAX_CHANGED, PageStore, StoreState};
 use crate::error::Error;
 use crate::layered_casters::{LayerTokens, LayeredCasters};
 use crate::plan::ShadowInputs;
@@ -95,7 +95,7 @@ impl Passes {
         frame: &mut Frame<'f>,
         (inputs, buffers, settings): (&ShadowInputs<'f>, &SurfaceBuffers, &VirtualSettings),
         (plan, casters): (&VirtualPlan, &'f dyn LayeredCasters),
-        (store, next, changes): (&Arc<PageStore>, Known, &Changes),
+        (store, next, changes): (&Arc<PageStore>, StoreState, &Changes),
     ) -> FrameBuffers {
         let block = frame_block(inputs, settings, plan, (store, &next, changes));
         let upload = |frame: &mut Frame<'f>, name: &'static str, bytes: &[u8]| {
@@ -275,7 +275,7 @@ fn frame_block(
     inputs: &ShadowInputs<'_>,
     settings: &VirtualSettings,
     plan: &VirtualPlan,
-    (store, next, changes): (&PageStore, &Known, &Changes),
+    (store, next, changes): (&PageStore, &StoreState, &Changes),
 ) -> Vec<u8> {
     let mut boxes = Vec::with_capacity(2 * MAX_CHANGED);
     if let Changes::Within(changed) = changes {

@@ -70,12 +70,12 @@ pub(super) struct PageStore {
     /// Depths of the pages that a frame draws; 0 between frames.
     pub(super) depths: wgpu::Buffer,
     entry_count: u32,
-    known: Mutex<Known>,
+    known: Mutex<StoreState>,
 }
 
 /// What the last recorded frame has left.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Known {
+pub(super) struct StoreState {
     /// Its number; 0 before the first.
     pub(super) frame: u32,
     pub(super) origin_world: DVec3,
@@ -125,7 +125,7 @@ impl PageStore {
         self.size == size && self.entry_count >= entry_count
     }
 
-    pub(super) fn known(&self) -> MutexGuard<'_, Known> {
+    pub(super) fn known(&self) -> MutexGuard<'_, StoreState> {
         self.known.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
@@ -139,7 +139,7 @@ pub(super) enum Changes {
     Anywhere,
 }
 
-impl Known {
+impl StoreState {
     /// Returns what a frame with these casters leaves, and what has changed before it.
     pub(super) fn next(
         &self,
