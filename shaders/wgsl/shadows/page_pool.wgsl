@@ -1,19 +1,33 @@
-// The pool of physical pages as a shadow map: it replaces the module of the maps of cascades and the atlas.
+// The pool of physical pages as a shadow map: it replaces the module of the maps of cascades and the atlas. The map is the page that is read:
+// coordinates are those of the page with its border, so that results do not depend on its place in the pool.
 #define_import_path shadowgraph::shadows::maps
+#import shadowgraph::shadows::pages::PAGE_PX
 
-// Depth, 1 nearest to the light.
+// Depth, 1 nearest to the light. Width and height are powers of two: texture coordinates of texels are exact.
 @group(1) @binding(4) var page_pool: texture_depth_2d;
 
+// Steps of a texel to which positions are rounded: with up to 13 bits of whole texels they fit an f32.
+const STEPS: f32 = 1024.0;
+
+// The place of the page that is read in the pool.
+var<private> page_place_px: vec2f;
+
+fn read_page(place_px: vec2f) {
+    page_place_px = place_px;
+}
+
 fn map_size(map: u32) -> vec2f {
-    return vec2f(textureDimensions(page_pool));
+    return vec2f(f32(PAGE_PX));
 }
 
 fn compared_in(map: u32, comparison: sampler_comparison, uv: vec2f, depth: f32) -> f32 {
-    return textureSampleCompareLevel(page_pool, comparison, uv, depth);
+    let texel = round(uv * f32(PAGE_PX) * STEPS) / STEPS;
+    let pool_uv = (texel + page_place_px) / vec2f(textureDimensions(page_pool));
+    return textureSampleCompareLevel(page_pool, comparison, pool_uv, depth);
 }
 
 fn stored_depth(map: u32, texel: vec2i) -> f32 {
-    return textureLoad(page_pool, texel, 0);
+    return textureLoad(page_pool, texel + vec2i(page_place_px), 0);
 }
 
 // The gradient of the stored depth at a point, per texel, for gradient biases.

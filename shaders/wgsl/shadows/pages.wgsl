@@ -2,6 +2,7 @@
 // a grid of pages; those that are resident have a place in the pool of physical pages.
 #define_import_path shadowgraph::shadows::pages
 #import shadowgraph::shadows::types::ShadowLight
+#import shadowgraph::shadows::variant::DIRECTIONAL
 
 // Texels along a page without its border, the border on each side, and with both.
 const PAGE_TEXELS: f32 = 128.0;
@@ -91,6 +92,10 @@ struct MapPoint {
 }
 
 fn project(projection: Projection, position: vec3f) -> MapPoint {
+    if DIRECTIONAL {
+        let axes = mat3x3f(projection.x.xyz, projection.y.xyz, projection.z.xyz);
+        return MapPoint(position * axes, 1.0);
+    }
     let p = vec4f(position, 1.0);
     let w = dot(projection.w, p);
     let divided = vec3f(dot(projection.x, p), dot(projection.y, p), dot(projection.z, p)) / w;
@@ -110,7 +115,7 @@ fn page_of(texels: vec2f) -> vec2i {
 // The level for a pixel of this width, metres: its texels are at most as wide. The fraction says how near it is to the next level.
 fn wanted_level(projection: Projection, point: MapPoint, pixel_m: f32) -> f32 {
     var level = log2(pixel_m / (projection.texel_m * point.w));
-    if projection.is_perspective == 0u {
+    if DIRECTIONAL || projection.is_perspective == 0u {
         // The level covers the point: 62 of the 64 pages on each side of the camera, and far more along the light.
         let offset = abs(point.position - projection.center) * vec3f(1.0, 1.0, 0.03125 / projection.texel_m);
         level = max(level, ceil(log2(max(max(offset.x, offset.y), offset.z) / (62.0 * PAGE_TEXELS))));
@@ -120,11 +125,14 @@ fn wanted_level(projection: Projection, point: MapPoint, pixel_m: f32) -> f32 {
 
 // A receiver, moved along its normal by the bias of a level.
 fn biased(projection: Projection, light: ShadowLight, level: u32, position: vec3f, normal: vec3f) -> vec3f {
-    let from_point = normalize(projection.center - position);
-    let to_light = select(projection.to_light, from_point, projection.is_perspective == 1u);
+    var to_light = projection.to_light;
+    var w = 1.0;
+    if !DIRECTIONAL && projection.is_perspective == 1u {
+        to_light = normalize(projection.center - position);
+        w = max(dot(projection.w, vec4f(position, 1.0)), 0.0);
+    }
     let cosine = dot(normal, to_light);
     let sine = select(1.0, sqrt(saturate(1.0 - cosine * cosine)), light.normal_sine == 1u);
-    let w = max(dot(projection.w, vec4f(position, 1.0)), 0.0);
     return position + normal * (light.normal_bias_texels * sine * ldexp(projection.texel_m * w, i32(level)));
 }
 

@@ -7,12 +7,13 @@
 #import shadowgraph::shadows::crease::is_behind_crease
 #import shadowgraph::shadows::filter::filtered
 #import shadowgraph::shadows::lookup::{Lookup, incidence_in, look_up}
-#import shadowgraph::shadows::maps::map_size
+#import shadowgraph::shadows::maps::read_page
 #import shadowgraph::shadows::pages::{
     BLEND_PART, BORDER_TEXELS, COARSENING_STEPS, Level, Page, PAGE_PX, PAGE_TEXELS, Projection, biased, entry_of, has_entry,
     in_level, page_of, project, wanted_level,
 }
-#import shadowgraph::shadows::types::{MAP_ATLAS, NOT_A_CASCADE, ShadowLight, ShadowView}
+#import shadowgraph::shadows::types::{NOT_A_CASCADE, ShadowLight, ShadowView}
+#import shadowgraph::shadows::variant::DIRECTIONAL
 #import shadowgraph::view::pixels_per_metre
 
 @group(1) @binding(0) var<storage, read> projections: array<Projection>;
@@ -74,13 +75,13 @@ fn find_page(index: u32, projection: Projection, shadow: ShadowLight, receiver: 
 fn view_of(projection: Projection, found: Found) -> ShadowView {
     let number = found.page.level;
     let level = levels[projection.first_level + number];
-    let pool_px = map_size(MAP_ATLAS);
+    let page_px = f32(PAGE_PX);
     let scale = ldexp(1.0, -i32(number));
-    // From texels of the level to those of the pool.
-    let offset = level.phase + found.place_px + BORDER_TEXELS - PAGE_TEXELS * vec2f(found.page.place);
+    // From texels of the level to those of the page with its border.
+    let offset = level.phase + BORDER_TEXELS - PAGE_TEXELS * vec2f(found.page.place);
     let depth = projection.z * level.depth_scale + projection.w * level.depth_offset;
-    let across = (projection.x * scale + projection.w * offset.x) / pool_px.x;
-    let down = (projection.y * scale + projection.w * offset.y) / pool_px.y;
+    let across = (projection.x * scale + projection.w * offset.x) / page_px;
+    let down = (projection.y * scale + projection.w * offset.y) / page_px;
     var result: ShadowView;
     result.map_from_world = transpose(mat4x4f(across, down, depth, projection.w));
     // Of this, the directions of the axes are read.
@@ -91,9 +92,12 @@ fn view_of(projection: Projection, found: Found) -> ShadowView {
     result.texel_scale = vec2f(1.0);
     result.texel_world = projection.texel_m / scale;
     result.depth_per_texel = projection.depth_per_texel * level.depth_scale / scale;
-    result.light = select(vec4f(projection.to_light, 0.0), vec4f(projection.center, 1.0), projection.is_perspective == 1u);
-    result.uv_min = (found.place_px + BORDER_TEXELS - 1.0) / pool_px;
-    result.uv_max = (found.place_px + BORDER_TEXELS + PAGE_TEXELS + 1.0) / pool_px;
+    result.light = vec4f(projection.to_light, 0.0);
+    if !DIRECTIONAL && projection.is_perspective == 1u {
+        result.light = vec4f(projection.center, 1.0);
+    }
+    result.uv_min = vec2f((BORDER_TEXELS - 1.0) / page_px);
+    result.uv_max = vec2f((BORDER_TEXELS + PAGE_TEXELS + 1.0) / page_px);
     result.bias_scale = 1.0;
     result.depth_step = level.depth_step;
     result.cascade = NOT_A_CASCADE;
@@ -105,6 +109,7 @@ fn page_visibility(projection: Projection, shadow: ShadowLight, receiver: Receiv
     if !found.exists {
         return 1.0;
     }
+    read_page(found.place_px);
     let shadow_view = view_of(projection, found);
     let lookup = look_up(shadow_view, shadow, receiver, incidence_in(shadow_view, shadow, receiver));
     if !lookup.covered {
@@ -128,7 +133,7 @@ fn level_at(projection: Projection, receiver: Receiver) -> f32 {
 
 // The index of the projection of a point among those of its light.
 fn face_of(shadow: ShadowLight, receiver: Receiver) -> u32 {
-    if shadow.view_count == 1u {
+    if DIRECTIONAL || shadow.view_count == 1u {
         return 0u;
     }
     return cube_face(receiver.position - projections[shadow.first_view].center);

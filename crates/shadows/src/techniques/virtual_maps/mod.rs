@@ -13,6 +13,7 @@ mod projections;
 mod settings;
 mod slots;
 mod store;
+mod variant;
 
 pub use settings::VirtualSettings;
 
@@ -29,6 +30,7 @@ use crate::technique::{ShadowBinding, ShadowOutputs, ShadowTechnique, SurfaceBuf
 use passes::{FrameBuffers, Passes};
 use plan::VirtualPlan;
 use store::{PoolSize, Stores};
+use variant::Variant;
 
 /// Virtual shadow maps. The filter is that of [`Pcf`](crate::Pcf).
 pub struct VirtualMaps {
@@ -79,6 +81,7 @@ impl VirtualMaps {
         bindings.push(ShadowBinding::Texture(pool.clone()));
         bindings.push(ShadowBinding::Sampler(&self.sampler));
         ShadowOutputs {
+            variant: Variant::for_frame(&plan.lights, &plan.projections).index(),
             bindings,
             debug_light: plan.main_light,
             debug: vec![("pool", pool)],
@@ -104,9 +107,13 @@ impl ShadowTechnique for VirtualMaps {
         true
     }
 
-    fn modules(&self, _variant: u32) -> Vec<ModuleSource> {
+    fn variant_count(&self) -> u32 {
+        Variant::ALL.len() as u32
+    }
+
+    fn modules(&self, variant: u32) -> Vec<ModuleSource> {
         let filter = PCF_FILTER.source.replace("@binding(10)", "@binding(5)");
-        vec![VIRTUAL, PAGE_POOL, ModuleSource::new(PCF_FILTER.file, filter)]
+        vec![VIRTUAL, PAGE_POOL, ModuleSource::new(PCF_FILTER.file, filter), Variant::module(variant)]
     }
 
     fn binding_types(&self) -> Vec<wgpu::BindingType> {
@@ -127,7 +134,7 @@ impl ShadowTechnique for VirtualMaps {
             PoolSize::new(settings.pool_mib, &self.device.limits()).map_err(|largest| Error::Setting {
                 field: "techniques.virtual.pool_mib".into(),
                 value: settings.pool_mib.to_string(),
-                allowed: format!("4 to {largest} MiB on this device"),
+                allowed: format!("a power of two from 4 to {largest} MiB on this device"),
             })?;
         let previous = self.stores.previous(inputs.view);
         let known = previous.map_or_else(Default::default, |store| store.known().clone());

@@ -194,7 +194,7 @@ impl Passes {
         depths: &mut Buffer,
     ) -> Texture {
         let mut pool = frame.import_texture("page pool", &store.pool, true);
-        let [width, height] = store.size.size_px();
+        let [width, height] = store.size.size_px;
         let size = frame.uniform(bytemuck::cast_slice(&[width, height, store.size.columns, 0]));
         let mut pass = frame.render_pass("store");
         let views = pass.storage_buffer(&steps.views);

@@ -4,8 +4,8 @@ use glam::{DMat3, DVec2, DVec3};
 use shadowgraph_scene::Aabb;
 
 use super::projections::{
-    DIRECTIONAL_LEVELS, DirectionalLevel, GpuLevel, GpuProjection, LOCAL_LEVELS, LOCAL_TEXELS, Projection,
-    Viewpoint, local_levels, map_position,
+    DIRECTIONAL_LEVELS, DirectionalLevel, GpuLevel, GpuProjection, LOCAL_LEVELS, LOCAL_TEXELS, PAGE_PX,
+    Projection, Viewpoint, local_levels, map_position,
 };
 use super::slots::Slots;
 use crate::error::Error;
@@ -198,7 +198,8 @@ fn light(
     let params = LightShadowParams::new(inputs.settings, candidate.own, is_directional);
     let light = ShadowLight::with_params(&params, range.distance_m);
     let eye = (range.camera.position_world() - inputs.origin_world).as_vec3().to_array();
-    ShadowLight { map: MAP_ATLAS, first_view: first, view_count: count as u32, eye, ..light }
+    let texel_uv = [1.0 / PAGE_PX as f32; 2];
+    ShadowLight { map: MAP_ATLAS, first_view: first, view_count: count as u32, eye, texel_uv, ..light }
 }
 
 /// Returns the projections and levels that shaders read.

@@ -23,37 +23,37 @@ pub(super) const MAX_CHANGED: usize = 256;
 /// The physical pages of a pool.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct PoolSize {
+    /// Width and height of the texture.
+    pub(super) size_px: [u32; 2],
     /// Pages along the width.
     pub(super) columns: u32,
-    pub(super) rows: u32,
     /// Number of pages.
     pub(super) pages: u32,
 }
 
 impl PoolSize {
-    /// Returns the pool that fits into some memory.
+    /// Returns the pool with some memory, a power of two. Its width and height in texels are powers of two, so texture coordinates of texels are
+    /// exact.
     ///
     /// # Errors
-    /// The largest number of MiB for textures and buffers within the limits.
+    /// The most MiB within the limits.
     pub(super) fn new(mib: u32, limits: &wgpu::Limits) -> Result<Self, u32> {
-        let of = |mib: u32| (u64::from(mib) << 20) / PAGE_BYTES;
-        let most_columns = limits.max_texture_dimension_2d / PAGE_PX;
+        let size = |mib: u32| {
+            let texels_log2 = (mib << 20).ilog2() - 2;
+            let [width, height] = [texels_log2.div_ceil(2), texels_log2 / 2].map(|side| 1u32 << side);
+            let [columns, rows] = [width, height].map(|side| side / PAGE_PX);
+            Self { size_px: [width, height], columns, pages: columns * rows }
+        };
         let bytes = limits.max_buffer_size.min(limits.max_storage_buffer_binding_size);
-        // Places are 16 bits, and 0 is none.
-        let most = u64::from(most_columns).pow(2).min(bytes / PAGE_BYTES).min(65_535);
-        let pages = of(mib);
-        if pages > most {
-            let largest = (0..mib).rev().find(|&mib| of(mib) <= most);
-            return Err(largest.unwrap_or(0));
+        let fits = |size: &Self| {
+            size.size_px[0] <= limits.max_texture_dimension_2d && PAGE_BYTES * u64::from(size.pages) <= bytes
+        };
+        let wanted = size(mib);
+        if fits(&wanted) {
+            return Ok(wanted);
         }
-        let pages = pages as u32;
-        let columns = (f64::from(pages).sqrt().ceil() as u32).min(most_columns);
-        Ok(Self { columns, rows: pages.div_ceil(columns), pages })
-    }
-
-    /// Returns the size of the texture, pixels.
-    pub(super) fn size_px(&self) -> [u32; 2] {
-        [self.columns, self.rows].map(|pages| pages * PAGE_PX)
+        let less = std::iter::successors(Some(mib / 2), |&mib| Some(mib / 2)).take_while(|&mib| mib > 0);
+        Err(less.into_iter().find(|&mib| fits(&size(mib))).unwrap_or(0))
     }
 }
 
@@ -87,7 +87,7 @@ pub(super) struct StoreState {
 
 impl PageStore {
     pub(super) fn new(device: &wgpu::Device, size: PoolSize, entry_count: u32) -> Self {
-        let [width, height] = size.size_px();
+        let [width, height] = size.size_px;
         let pool = device.create_texture(&wgpu::TextureDescriptor {
             label: Some("page pool"),
             size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
@@ -216,5 +216,23 @@ impl Stores {
         let store = Arc::new(PageStore::new(device, size, entry_count));
         stores.insert(view, store.clone());
         store
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_pool_has_sides_that_are_powers_of_two_and_is_within_the_limits() {
+        let limits = wgpu::Limits::default();
+        let pool = |mib| PoolSize::new(mib, &limits);
+        assert_eq!(pool(4), Ok(PoolSize { size_px: [1024, 1024], columns: 7, pages: 49 }));
+        assert_eq!(pool(64), Ok(PoolSize { size_px: [4096, 4096], columns: 30, pages: 900 }));
+        assert_eq!(pool(128), Ok(PoolSize { size_px: [8192, 4096], columns: 60, pages: 1800 }));
+        // Of the default limits, that of storage buffers is reached first.
+        assert_eq!(pool(256), Err(128));
+        let small = wgpu::Limits { max_texture_dimension_2d: 2048, ..limits };
+        assert_eq!(PoolSize::new(64, &small), Err(16));
     }
 }

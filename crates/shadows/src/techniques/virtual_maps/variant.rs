@@ -1,0 +1,88 @@
+//! The variants of the lookup: code that no light of a frame needs is not compiled.
+
+use shadowgraph_shaders::ModuleSource;
+
+use super::projections::GpuProjection;
+use crate::views::{BIAS_PLANE, ShadowLight};
+
+/// What the lookups of a frame's shadowed lights have in common. The default, nothing, works for every frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Variant {
+    /// All are directional.
+    directional: bool,
+    /// All have the default bias and the default filter.
+    usual: bool,
+}
+
+/// The taps of the default filter.
+const USUAL_TAPS: u32 = 3;
+
+impl Variant {
+    /// All variants, by index.
+    pub(super) const ALL: [Self; 4] = [
+        Self { directional: false, usual: false },
+        Self { directional: false, usual: true },
+        Self { directional: true, usual: false },
+        Self { directional: true, usual: true },
+    ];
+
+    /// Returns the best variant for the lights of a frame.
+    pub(super) fn for_frame(lights: &[ShadowLight], projections: &[GpuProjection]) -> Self {
+        let mut shadowed = lights.iter().filter(|light| light.view_count > 0);
+        let is_usual = |light: &ShadowLight| {
+            light.filter_taps == USUAL_TAPS
+                && light.bias_method == BIAS_PLANE
+                && light.normal_sine == 1
+                && light.fades_by_radius == 0
+        };
+        Self {
+            directional: projections.iter().all(|projection| projection.is_perspective == 0),
+            usual: shadowed.all(is_usual),
+        }
+    }
+
+    pub(super) fn index(self) -> u32 {
+        2 * u32::from(self.directional) + u32::from(self.usual)
+    }
+
+    /// Returns the replacement of `shadows/variant.wgsl` for the variant with an index.
+    pub(super) fn module(index: u32) -> ModuleSource {
+        let Self { directional, usual } = Self::ALL.get(index as usize).copied().unwrap_or_default();
+        let taps = if usual { USUAL_TAPS } else { 0 };
+        let text = format!(
+            "#define_import_path shadowgraph::shadows::variant\n\
+             const FILTER_TAPS: u32 = {taps}u;\n\
+             const DIRECTIONAL: bool = {directional};\n\
+             const SIMPLE: bool = {usual};\n",
+        );
+        ModuleSource::new(format!("shadows/variant.wgsl of virtual {index}"), text)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use bytemuck::Zeroable;
+
+    #[test]
+    fn every_index_is_that_of_its_variant() {
+        for (index, variant) in (0..).zip(Variant::ALL) {
+            assert_eq!(variant.index(), index);
+        }
+    }
+
+    #[test]
+    fn a_light_that_needs_more_removes_what_lights_have_in_common() {
+        let sun = ShadowLight { view_count: 1, filter_taps: 3, normal_sine: 1, ..ShadowLight::default() };
+        let soft = ShadowLight { filter_taps: 4, ..sun };
+        let (directional, local) =
+            (GpuProjection::zeroed(), GpuProjection { is_perspective: 1, ..GpuProjection::zeroed() });
+        let of = |lights: &[ShadowLight], projections: &[GpuProjection]| {
+            Variant::for_frame(lights, projections).index()
+        };
+        assert_eq!(of(&[sun, ShadowLight::default()], &[directional]), 3);
+        assert_eq!(of(&[sun, soft], &[directional]), 2);
+        assert_eq!(of(&[sun], &[directional, local]), 1);
+        assert_eq!(of(&[soft], &[local]), 0);
+    }
+}
