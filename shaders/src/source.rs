@@ -92,9 +92,11 @@ pub const PCF_FILTER: ModuleSource = file!("shadows/pcf.wgsl");
 /// The modules that any file can import.
 pub(crate) const MODULES: &[ModuleSource] = &[
     file!("cluster_grid.wgsl"),
+    file!("cull_boxes.wgsl"),
     file!("draw.wgsl"),
     file!("environment.wgsl"),
     file!("exposure_bins.wgsl"),
+    file!("float_order.wgsl"),
     file!("frame_noise.wgsl"),
     file!("fullscreen.wgsl"),
     file!("gbuffer_layout.wgsl"),

@@ -8,26 +8,9 @@
 //   write_draws       the arguments of the draws
 //
 // Compaction keeps the order: images are those of drawing the same instances one after the other.
+#import shadowgraph::cull_boxes::{Batch, Box, is_behind, world_bounds}
 #import shadowgraph::draw::Instance
 #import shadowgraph::occluders::{FINEST, texel_index, top_level}
-
-// Neighbours in the order of draws that share all but the instance. 64 bytes.
-struct Batch {
-    // Bounds in the space of the instance.
-    center: vec3f,
-    // The number of the first instance.
-    first: u32,
-    half_size: vec3f,
-    // Number of instances.
-    count: u32,
-    flags: u32,
-    first_index: u32,
-    index_count: u32,
-    base_vertex: i32,
-    // The place of the first visible instance in the list of a view.
-    first_slot: u32,
-    padding: array<u32, 3>,
-}
 
 // Instances of a chunk: the size of a workgroup.
 const CHUNK: u32 = 64u;
@@ -37,8 +20,6 @@ const ELEMENTS: u32 = 1024u;
 const RANKING: u32 = 256u;
 // Words of the arguments of an indexed indirect draw.
 const ARGUMENTS: u32 = 5u;
-// Relative error of a distance to a plane.
-const ROUNDING: f32 = 4e-6;
 
 // Whether draws begin with the instance of their arguments. If not, lists are bound at an offset for each draw.
 override FIRST_INSTANCE: bool = true;
@@ -106,31 +87,10 @@ fn first_word(view: u32, chunk: u32) -> u32 {
     return 2u * (view * chunk_count() + chunk);
 }
 
-// A box with axes that need not be orthogonal.
-struct Box {
-    center: vec3f,
-    axes: mat3x3f,
-}
-
-fn world_bounds(instance: Instance, batch: Batch) -> Box {
-    let center = vec4f(batch.center, 1.0);
-    let rows = array(instance.row_x, instance.row_y, instance.row_z);
-    let axes = mat3x3f(
-        vec3f(rows[0].x, rows[1].x, rows[2].x) * batch.half_size.x,
-        vec3f(rows[0].y, rows[1].y, rows[2].y) * batch.half_size.y,
-        vec3f(rows[0].z, rows[1].z, rows[2].z) * batch.half_size.z,
-    );
-    return Box(vec3f(dot(rows[0], center), dot(rows[1], center), dot(rows[2], center)), axes);
-}
-
 // Whether the box may intersect the volume of a view; never false for one that does.
 fn intersects(box: Box, view: vec4u) -> bool {
     for (var index = view.x; index < view.x + view.y; index++) {
-        let plane = bitcast<vec4f>(views[index]);
-        let reach = abs(plane.xyz * box.axes);
-        let radius = reach.x + reach.y + reach.z;
-        let terms = dot(abs(plane.xyz), abs(box.center)) + abs(plane.w) + radius;
-        if dot(plane.xyz, box.center) + plane.w + radius < -ROUNDING * terms {
+        if is_behind(box, bitcast<vec4f>(views[index])) {
             return false;
         }
     }

@@ -9,22 +9,9 @@
 //   write_pairs    the list of pairs
 //
 // The order of pairs is not defined: draws must not depend on it.
+#import shadowgraph::cull_boxes::{Batch, Box, is_behind, world_bounds}
 #import shadowgraph::draw::Instance
-#import shadowgraph::layer_views::{LayerView, LayerViews}
-
-// The same as in cull.wgsl.
-struct Batch {
-    center: vec3f,
-    first: u32,
-    half_size: vec3f,
-    count: u32,
-    flags: u32,
-    first_index: u32,
-    index_count: u32,
-    base_vertex: i32,
-    first_slot: u32,
-    padding: array<u32, 3>,
-}
+#import shadowgraph::layer_views::LayerViews
 
 struct CullLayers {
     instance_count: u32,
@@ -42,8 +29,6 @@ const GROUP: u32 = 64u;
 const RANKING: u32 = 256u;
 // Words of the draw of a batch: the alignment of dynamic offsets.
 const DRAW_WORDS: u32 = 64u;
-// Relative error of a distance to a plane.
-const ROUNDING: f32 = 4e-6;
 
 override FIRST_INSTANCE: bool = true;
 
@@ -59,30 +44,6 @@ override FIRST_INSTANCE: bool = true;
 @group(0) @binding(6) var<storage, read_write> pairs: array<vec2u>;
 
 var<workgroup> sums: array<u32, RANKING>;
-
-// A box with axes that need not be orthogonal.
-struct Box {
-    center: vec3f,
-    axes: mat3x3f,
-}
-
-fn world_bounds(instance: Instance, batch: Batch) -> Box {
-    let center = vec4f(batch.center, 1.0);
-    let rows = array(instance.row_x, instance.row_y, instance.row_z);
-    let axes = mat3x3f(
-        vec3f(rows[0].x, rows[1].x, rows[2].x) * batch.half_size.x,
-        vec3f(rows[0].y, rows[1].y, rows[2].y) * batch.half_size.y,
-        vec3f(rows[0].z, rows[1].z, rows[2].z) * batch.half_size.z,
-    );
-    return Box(vec3f(dot(rows[0], center), dot(rows[1], center), dot(rows[2], center)), axes);
-}
-
-fn is_behind(box: Box, plane: vec4f) -> bool {
-    let reach = abs(plane.xyz * box.axes);
-    let radius = reach.x + reach.y + reach.z;
-    let terms = dot(abs(plane.xyz), abs(box.center)) + abs(plane.w) + radius;
-    return dot(plane.xyz, box.center) + plane.w + radius < -ROUNDING * terms;
-}
 
 // Whether the box may intersect a view, or what is nearer than it; never false for one that does.
 fn intersects(box: Box, clip: mat4x4f) -> bool {

@@ -1,4 +1,5 @@
 // Marks the pages of virtual shadow maps that visible surfaces are read from.
+#import shadowgraph::float_order::{decoded, encoded}
 #import shadowgraph::view::{pixels_per_metre, view_depth_of}
 #import shadowgraph::surface::unpack_normal
 #import shadowgraph::shadows::cube::cube_face
@@ -24,15 +25,6 @@ var<workgroup> highest: array<atomic<u32>, 3>;
 // The lights of a batch that may reach them.
 var<workgroup> reaching: array<u32, BATCH>;
 var<workgroup> reaching_count: atomic<u32>;
-
-fn encoded(x: f32) -> u32 {
-    let bits = bitcast<u32>(x);
-    return select(bits | 0x80000000u, ~bits, (bits >> 31u) == 1u);
-}
-
-fn decoded(code: u32) -> f32 {
-    return bitcast<f32>(select(~code, code & 0x7fffffffu, (code >> 31u) == 1u));
-}
 
 fn request(page: Page, projection: Projection, level: Level, bit: u32) {
     if !has_entry(level, page.place) {

@@ -1,6 +1,6 @@
 // The state of virtual shadow maps, for the passes that bring it up to date.
 #define_import_path shadowgraph::pages_state
-#import shadowgraph::shadows::pages::{Level, Page, Projection, entry_of, has_entry}
+#import shadowgraph::shadows::pages::{Level, Page, Projection}
 
 const MAX_COARSE: u32 = 512u;
 const MAX_CHANGED: u32 = 256u;

@@ -7,7 +7,7 @@
 //
 // All but cs_allocate run in any number of workgroups.
 #import shadowgraph::shadows::pages::{
-    BORDER_TEXELS, Level, PAGE_PX, PAGE_TEXELS, Page, Projection, entry_of, has_entry, parent_of,
+    BORDER_TEXELS, Level, PAGE_PX, PAGE_TEXELS, Page, PageTable, Projection, entry_of, has_entry, parent_of,
 }
 #import shadowgraph::layer_views::LayerViews
 #import shadowgraph::pages_state::{
@@ -25,15 +25,6 @@ struct PhysicalPage {
     last_frame: u32,
     // The index of its entry.
     entry: u32,
-}
-
-// See PageTable of shadows/virtual.wgsl.
-struct PageTable {
-    stamp: u32,
-    coarsening: u32,
-    pool_columns: u32,
-    level_bias: f32,
-    entries: array<u32>,
 }
 
 @group(2) @binding(0) var<storage, read_write> page_table: PageTable;

@@ -1,5 +1,6 @@
 // Fits cascades to the visible surfaces (Lauritzen, Salvi and Lefohn, "Sample Distribution Shadow Maps", 2011): finds their depth
 // range, splits it, and fits each cascade to the surfaces in its split. Nothing is read back.
+#import shadowgraph::float_order::{decoded, encoded}
 #import shadowgraph::view::{view, view_depth_of}
 #import shadowgraph::shadows::lookup::light_axes
 #import shadowgraph::shadows::types::{ShadowView, ShadowLight, NOT_A_CASCADE}
@@ -46,15 +47,6 @@ const GROUP_SIZE: u32 = 8u;
 
 var<workgroup> group_depths: array<atomic<u32>, 2>;
 var<workgroup> group_bounds: array<atomic<u32>, 192>;
-
-fn encoded(x: f32) -> u32 {
-    let bits = bitcast<u32>(x);
-    return select(bits | 0x80000000u, ~bits, (bits >> 31u) == 1u);
-}
-
-fn decoded(code: u32) -> f32 {
-    return bitcast<f32>(select(~code, code & 0x7fffffffu, (code >> 31u) == 1u));
-}
 
 // The view depth of a pixel's surface, at least that where the first cascade begins; 0 where there is none within the shadow distance.
 fn depth_at(pixel: vec2u) -> f32 {

@@ -71,6 +71,20 @@ struct Page {
     place: vec2i,
 }
 
+// The pages of the frame.
+struct PageTable {
+    // Number of the frame, modulo 65536.
+    stamp: u32,
+    // Steps by which all levels are coarser, COARSENING_STEPS for a level.
+    coarsening: u32,
+    // Pages of the pool along its width.
+    pool_columns: u32,
+    // Added to levels: coarser above 0, finer below.
+    level_bias: f32,
+    // For each page the stamp of the last frame that needed it, in the upper half, and its place in the pool plus 1.
+    entries: array<u32>,
+}
+
 // The entry of a page in the table.
 fn entry_of(projection: Projection, level: Level, place: vec2i) -> u32 {
     let side = 1u << level.side_shift;

@@ -9,7 +9,7 @@
 #import shadowgraph::shadows::lookup::{Lookup, incidence_in, look_up}
 #import shadowgraph::shadows::maps::read_page
 #import shadowgraph::shadows::pages::{
-    BLEND_PART, BORDER_TEXELS, COARSENING_STEPS, Level, Page, PAGE_PX, PAGE_TEXELS, Projection, biased, entry_of, has_entry,
+    BLEND_PART, BORDER_TEXELS, COARSENING_STEPS, Level, Page, PAGE_PX, PAGE_TEXELS, PageTable, Projection, biased, entry_of, has_entry,
     in_level, page_of, project, wanted_level,
 }
 #import shadowgraph::shadows::types::{NOT_A_CASCADE, ShadowLight, ShadowView}
@@ -20,20 +20,6 @@
 @group(1) @binding(1) var<storage, read> levels: array<Level>;
 @group(1) @binding(2) var<storage, read> shadow_lights: array<ShadowLight>;
 @group(1) @binding(3) var<storage, read> page_table: PageTable;
-
-// The pages of the frame.
-struct PageTable {
-    // Number of the frame, modulo 65536.
-    stamp: u32,
-    // Steps by which all levels are coarser, COARSENING_STEPS for a level.
-    coarsening: u32,
-    // Pages of the pool along its width.
-    pool_columns: u32,
-    // Added to levels: coarser above 0, finer below.
-    level_bias: f32,
-    // For each page the stamp of the last frame that needed it, in the upper half, and its place in the pool plus 1.
-    entries: array<u32>,
-}
 
 // A page that the frame has, or none.
 struct Found {

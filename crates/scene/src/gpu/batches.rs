@@ -67,7 +67,7 @@ pub(super) struct Batch {
     pub(super) first_slot: u32,
 }
 
-/// `Batch` of `cull.wgsl`.
+/// `Batch` of `cull_boxes.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 struct GpuBatch {

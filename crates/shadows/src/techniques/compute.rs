@@ -4,6 +4,13 @@ use std::borrow::Cow;
 
 use shadowgraph_shaders::naga;
 
+/// A writable storage buffer.
+pub(crate) const WRITTEN: wgpu::BindingType = wgpu::BindingType::Buffer {
+    ty: wgpu::BufferBindingType::Storage { read_only: false },
+    has_dynamic_offset: false,
+    min_binding_size: None,
+};
+
 /// Creates a shader from composed WGSL.
 pub(crate) fn shader(device: &wgpu::Device, label: &str, module: naga::Module) -> wgpu::ShaderModule {
     device.create_shader_module(wgpu::ShaderModuleDescriptor {

@@ -9,20 +9,13 @@ use crate::gpu_struct;
 use crate::plan::{ShadowInputs, ShadowPlan};
 use crate::technique::binding::{FLOAT_MAP, STORAGE, UNIFORM};
 use crate::technique::{GpuData, SurfaceBuffers, layout};
-use crate::techniques::compute::{dispatch, pipeline, shader};
+use crate::techniques::compute::{WRITTEN, dispatch, pipeline, shader};
 
 /// The side of a workgroup of the passes over the image, pixels.
 const WORKGROUP_PX: u32 = 8;
 
 /// Number of views that a workgroup of the last pass writes.
 const WORKGROUP_VIEWS: u32 = 64;
-
-/// A writable storage buffer.
-const WRITTEN: wgpu::BindingType = wgpu::BindingType::Buffer {
-    ty: wgpu::BufferBindingType::Storage { read_only: false },
-    has_dynamic_offset: false,
-    min_binding_size: None,
-};
 
 gpu_struct! {
     /// `Fit` of `sdsm.wgsl`.

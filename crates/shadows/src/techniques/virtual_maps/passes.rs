@@ -12,16 +12,10 @@ use crate::layered_casters::{LayerTokens, LayeredCasters};
 use crate::plan::ShadowInputs;
 use crate::technique::binding::{FLOAT_MAP, STORAGE, UNIFORM};
 use crate::technique::{SurfaceBuffers, layout};
-use crate::techniques::compute::{dispatch, pipeline, shader};
+use crate::techniques::compute::{WRITTEN, dispatch, pipeline, shader};
 use crate::vertex_buffers::VertexBuffers;
 use std::sync::Arc;
 
-/// A writable storage buffer.
-const WRITTEN: wgpu::BindingType = wgpu::BindingType::Buffer {
-    ty: wgpu::BufferBindingType::Storage { read_only: false },
-    has_dynamic_offset: false,
-    min_binding_size: None,
-};
 /// The side of a workgroup that marks pages, pixels.
 const WORKGROUP_PX: u32 = 8;
 /// Threads of a workgroup of passes over pages.
