@@ -11,7 +11,7 @@
 // The order of pairs is not defined: draws must not depend on it.
 #import shadowgraph::cull_boxes::{Batch, Box, is_behind, world_bounds}
 #import shadowgraph::draw::Instance
-#import shadowgraph::layer_views::LayerViews
+#import shadowgraph::layer_views::{CASTERS_MOVING, CASTERS_STATIC, LayerViews}
 
 struct CullLayers {
     instance_count: u32,
@@ -23,6 +23,9 @@ struct CullLayers {
     pair_capacity: u32,
     // The most views.
     view_capacity: u32,
+    // The flags of casters that move.
+    moving: u32,
+    padding: u32,
 }
 
 const GROUP: u32 = 64u;
@@ -45,9 +48,13 @@ override FIRST_INSTANCE: bool = true;
 
 var<workgroup> sums: array<u32, RANKING>;
 
-// Whether the box may intersect a view, or what is nearer than it; never false for one that does.
-fn intersects(box: Box, clip: mat4x4f) -> bool {
-    let rows = transpose(clip);
+// Whether the instance is drawn in a view: its box may intersect the view, or what is nearer than it. Never false for one that does.
+fn is_drawn(found: Candidate, index: u32) -> bool {
+    if (found.casters & layers.views[index].casters) == 0u {
+        return false;
+    }
+    let box = found.box;
+    let rows = transpose(layers.views[index].clip_from_world);
     return !is_behind(box, rows[3] + rows[0]) && !is_behind(box, rows[3] - rows[0]) && !is_behind(box, rows[3] + rows[1])
         && !is_behind(box, rows[3] - rows[1]) && !is_behind(box, rows[2]);
 }
@@ -56,7 +63,8 @@ fn intersects(box: Box, clip: mat4x4f) -> bool {
 struct Candidate {
     box: Box,
     batch: u32,
-    is_wanted: bool,
+    // CASTERS_*; 0: it is not drawn.
+    casters: u32,
 }
 
 fn candidate(number: u32) -> Candidate {
@@ -65,7 +73,9 @@ fn candidate(number: u32) -> Candidate {
         let instance = instances[number];
         let batch = batches[instance.flags.x];
         let flags = batch.flags | instance.flags.y;
-        found.is_wanted = (flags & cull.required) == cull.required && (flags & cull.excluded) == 0u;
+        if (flags & cull.required) == cull.required && (flags & cull.excluded) == 0u {
+            found.casters = select(CASTERS_STATIC, CASTERS_MOVING, (flags & cull.moving) != 0u);
+        }
         found.batch = instance.flags.x;
         found.box = world_bounds(instance, batch);
     }
@@ -87,12 +97,12 @@ fn clear_counts(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroup
 fn count_pairs(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) groups: vec3u) {
     for (var number = id.x; number < cull.instance_count; number += GROUP * groups.x) {
         let found = candidate(number);
-        if !found.is_wanted {
+        if found.casters == 0u {
             continue;
         }
         var of_batch = 0u;
         for (var index = 0u; index < view_count(); index++) {
-            if intersects(found.box, layers.views[index].clip_from_world) {
+            if is_drawn(found, index) {
                 atomicAdd(&counts[index], 1u);
                 of_batch++;
             }
@@ -156,12 +166,12 @@ fn recount_pairs(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgrou
     }
     for (var number = id.x; number < cull.instance_count; number += GROUP * groups.x) {
         let found = candidate(number);
-        if !found.is_wanted {
+        if found.casters == 0u {
             continue;
         }
         var dropped = 0u;
         for (var index = layers.drawn; index < view_count(); index++) {
-            dropped += u32(intersects(found.box, layers.views[index].clip_from_world));
+            dropped += u32(is_drawn(found, index));
         }
         if dropped > 0u {
             atomicSub(&counts[cull.view_capacity + found.batch], dropped);
@@ -193,17 +203,20 @@ fn write_draws(@builtin(local_invocation_index) local: u32) {
         atomicStore(&counts[cull.view_capacity + index], first);
         first += count;
     }
+    if local == RANKING - 1u {
+        layers.pairs = first;
+    }
 }
 
 @compute @workgroup_size(64)
 fn write_pairs(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) groups: vec3u) {
     for (var number = id.x; number < cull.instance_count; number += GROUP * groups.x) {
         let found = candidate(number);
-        if !found.is_wanted {
+        if found.casters == 0u {
             continue;
         }
         for (var index = 0u; index < layers.drawn; index++) {
-            if intersects(found.box, layers.views[index].clip_from_world) {
+            if is_drawn(found, index) {
                 let pair = atomicAdd(&counts[cull.view_capacity + found.batch], 1u);
                 pairs[pair] = vec2u(number, index);
             }

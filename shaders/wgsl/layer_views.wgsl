@@ -1,15 +1,21 @@
 // Views that the GPU writes, each for a layer of depth.
 #define_import_path shadowgraph::layer_views
 
-// 80 bytes.
+// The casters of a view: CASTERS_*.
+const CASTERS_STATIC: u32 = 1u;
+const CASTERS_MOVING: u32 = 2u;
+
+// 96 bytes.
 struct LayerView {
     // To the layer: x and y -w to w, y up, z/w 1 nearest and 0 farthest.
     clip_from_world: mat4x4f,
     // Offset from a pixel of the layer to its world-aligned texel, modulo 1024.
     noise_px: vec2u,
     // Whatever the writer needs.
-    tag: u32,
-    padding: u32,
+    tag: vec2u,
+    // The casters that are drawn: the sum of CASTERS_*.
+    casters: u32,
+    padding: array<u32, 3>,
 }
 
 struct LayerViews {
@@ -19,6 +25,7 @@ struct LayerViews {
     drawn: u32,
     // Width and height of each layer.
     side_px: u32,
-    padding: u32,
+    // The number of pairs of an instance and a view that are drawn. The pass that culls writes it.
+    pairs: u32,
     views: array<LayerView>,
 }

@@ -6,15 +6,18 @@
 //   cs_finish     frees the pages that are not drawn after all
 //
 // All but cs_allocate run in any number of workgroups.
+//
+// A page has a static physical page, with the casters that stand, and where casters move also a composite one, with all of them. A composite
+// page is drawn again for each movement, and its static page stays as it is.
 #import shadowgraph::shadows::pages::{
-    BORDER_TEXELS, Level, PAGE_PX, PAGE_TEXELS, Page, PageTable, Projection, entry_of, has_entry, parent_of,
+    BORDER_TEXELS, IS_LAYER, Level, PAGE_PX, PAGE_TEXELS, Page, PageTable, Projection, entry_of, has_entry, parent_of,
 }
-#import shadowgraph::layer_views::LayerViews
+#import shadowgraph::layer_views::{CASTERS_MOVING, CASTERS_STATIC, LayerViews}
 #import shadowgraph::pages_state::{
-    ListedPage, counters, level_of, levels, lists, marks, pages_frame, projections, frame_stamp,
+    ListedPage, counters, level_of, levels, lists, marks, pages_frame, projections, frame_stamp, words_of,
 }
 
-// A physical page. 32 bytes.
+// A physical page. 48 bytes.
 struct PhysicalPage {
     page: Page,
     // That of the projection when the page was drawn; 0: the page is free.
@@ -25,7 +28,15 @@ struct PhysicalPage {
     last_frame: u32,
     // The index of its entry.
     entry: u32,
+    // STATIC or COMPOSITE.
+    kind: u32,
+    // The frame that drew it, and its layer there.
+    drawn_frame: u32,
+    layer: u32,
 }
+
+const STATIC: u32 = 0u;
+const COMPOSITE: u32 = 1u;
 
 @group(2) @binding(0) var<storage, read_write> page_table: PageTable;
 @group(2) @binding(1) var<storage, read_write> physical_pages: array<PhysicalPage>;
@@ -38,6 +49,7 @@ const COARSER_LEVELS: u32 = 8u;
 // The age of a free page; those of others are less.
 const FREE: u32 = 255u;
 const MAX_LEVELS: u32 = 16u;
+const BEGINS: u32 = 32u;
 
 // Lists a page that is needed at some coarsenings, a bit for each.
 fn need(page: Page, bits: u32) {
@@ -47,19 +59,32 @@ fn need(page: Page, bits: u32) {
         return;
     }
     let entry = entry_of(projection, level, page.place);
-    if atomicOr(&marks[2u * entry + 1u], bits) == 0u {
+    if atomicOr(&marks[words_of(entry) + 1u], bits) == 0u {
         let index = atomicAdd(&counters.listed, 1u);
         if index < pages_frame.need_capacity {
-            lists[pages_frame.request_capacity + index] = ListedPage(page, entry, 0u);
+            let has_movers = u32(any_touches(page, pages_frame.moved_end, pages_frame.movers_end));
+            lists[pages_frame.request_capacity + index] = ListedPage(page, entry, has_movers);
         } else {
-            atomicStore(&marks[2u * entry + 1u], 0u);
+            atomicStore(&marks[words_of(entry) + 1u], 0u);
         }
     }
 }
 
-// Whether bounds intersect what is drawn into a page.
-fn touches(page: Page, center: vec3f, half_size: vec3f) -> bool {
+// Whether some of the boxes intersect what is drawn into a page.
+fn any_touches(page: Page, begin: u32, end: u32) -> bool {
+    if begin == end {
+        return false;
+    }
     let clip = clip_from_world(page);
+    for (var i = begin; i < end; i++) {
+        if touches(clip, pages_frame.boxes[2u * i].xyz, pages_frame.boxes[2u * i + 1u].xyz) {
+            return true;
+        }
+    }
+    return false;
+}
+
+fn touches(clip: mat4x4f, center: vec3f, half_size: vec3f) -> bool {
     let rows = array(
         vec4f(clip[0].x, clip[1].x, clip[2].x, clip[3].x), vec4f(clip[0].y, clip[1].y, clip[2].y, clip[3].y),
         vec4f(clip[0].z, clip[1].z, clip[2].z, clip[3].z), vec4f(clip[0].w, clip[1].w, clip[2].w, clip[3].w),
@@ -76,20 +101,23 @@ fn touches(page: Page, center: vec3f, half_size: vec3f) -> bool {
     return true;
 }
 
-fn is_changed(page: Page) -> bool {
-    for (var i = 0u; i < pages_frame.changed_count; i++) {
-        if touches(page, pages_frame.changed[2u * i].xyz, pages_frame.changed[2u * i + 1u].xyz) {
-            return true;
-        }
-    }
-    return false;
+// The place of a resident page in the pool plus 1, or 0.
+fn resident(entry: u32, kind: u32) -> u32 {
+    return (atomicLoad(&marks[words_of(entry) + 2u]) >> (16u * kind)) & 0xffffu;
+}
+
+fn set_resident(entry: u32, kind: u32, place: u32) {
+    atomicOr(&marks[words_of(entry) + 2u], (place + 1u) << (16u * kind));
+}
+
+// Shows a page to lookups of this frame.
+fn show(entry: u32, place: u32) {
+    page_table.entries[entry] = (frame_stamp() << 16u) | (place + 1u);
 }
 
 fn free(index: u32) {
-    let entry = physical_pages[index].entry;
-    if (page_table.entries[entry] & 0xffffu) == index + 1u {
-        page_table.entries[entry] = 0u;
-    }
+    let known = physical_pages[index];
+    atomicAnd(&marks[words_of(known.entry) + 2u], ~(0xffffu << (16u * known.kind)));
     physical_pages[index].version = 0u;
 }
 
@@ -104,14 +132,18 @@ fn cs_validate(@builtin(global_invocation_id) id: vec3u) {
         return;
     }
     let known = physical_pages[index];
+    // Stamps are those of one in 65,536 frames.
+    page_table.entries[known.entry] = 0u;
     let projection = projections[known.page.projection];
     var is_valid = pages_frame.is_reset == 0u && projection.version == known.version;
     if is_valid {
         // The level with these texels may have another number.
         let number = known.exponent - levels[projection.first_level].exponent;
         let page = Page(known.page.projection, u32(number), known.page.place);
+        // Static pages do not depend on what moves.
+        let changed_end = select(pages_frame.changed_end, pages_frame.moved_end, known.kind == COMPOSITE);
         is_valid = number >= 0 && number < i32(projection.level_count) && has_entry(level_of(page), page.place)
-            && !is_changed(page);
+            && !any_touches(page, 0u, changed_end);
         physical_pages[index].page = page;
     }
     if !is_valid {
@@ -131,7 +163,7 @@ fn cs_list(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) gr
     let count = min(atomicLoad(&counters.requested), pages_frame.request_capacity);
     for (var index = id.x; index < count; index += 64u * groups.x) {
         let entry = lists[index].entry;
-        let quarters = atomicExchange(&marks[2u * entry], 0u);
+        let quarters = atomicExchange(&marks[words_of(entry)], 0u);
         var page = lists[index].page;
         let last = projections[page.projection].level_count - 1u;
         for (var coarser = 0; coarser <= i32(COARSER_LEVELS); coarser++) {
@@ -154,7 +186,8 @@ fn cs_list(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) gr
 
 var<workgroup> counts: array<atomic<u32>, 256>;
 var<workgroup> sums: array<u32, 512>;
-var<workgroup> level_begins: array<atomic<u32>, MAX_LEVELS>;
+// The first rank of the missing pages of a kind and level.
+var<workgroup> begins: array<atomic<u32>, BEGINS>;
 var<workgroup> missing: u32;
 var<workgroup> oldest: u32;
 var<workgroup> older: u32;
@@ -168,11 +201,6 @@ fn listed(index: u32) -> ListedPage {
     return lists[pages_frame.request_capacity + index];
 }
 
-// The place of a resident page in the pool plus 1, or 0.
-fn resident(entry: u32) -> u32 {
-    return page_table.entries[entry] & 0xffffu;
-}
-
 fn age_of(index: u32) -> u32 {
     let page = physical_pages[index];
     if page.version == 0u {
@@ -183,16 +211,17 @@ fn age_of(index: u32) -> u32 {
 
 // Whether the page is needed at the frame's coarsening.
 fn is_needed(entry: u32) -> bool {
-    return (atomicLoad(&marks[2u * entry + 1u]) & (1u << coarsening)) != 0u;
+    return (atomicLoad(&marks[words_of(entry) + 1u]) & (1u << coarsening)) != 0u;
 }
 
 fn choose_coarsening(local: u32) {
     atomicStore(&counts[local], 0u);
     workgroupBarrier();
     for (var index = local; index < listed_count(); index += THREADS) {
-        var bits = atomicLoad(&marks[2u * listed(index).entry + 1u]);
+        let page = listed(index);
+        var bits = atomicLoad(&marks[words_of(page.entry) + 1u]);
         while bits != 0u {
-            atomicAdd(&counts[firstTrailingBit(bits)], 1u);
+            atomicAdd(&counts[firstTrailingBit(bits)], 1u + page.has_movers);
             bits &= bits - 1u;
         }
     }
@@ -212,34 +241,44 @@ fn choose_coarsening(local: u32) {
     workgroupBarrier();
 }
 
-// Stamps the entries of needed pages that are resident, and counts the others by level.
-fn stamp_resident(local: u32) {
-    if local < MAX_LEVELS {
-        atomicStore(&level_begins[local], 0u);
+// Where the missing pages of a kind and level begin: coarse levels come first, and static pages before composite ones.
+fn begin_of(kind: u32, level: u32) -> u32 {
+    return kind * MAX_LEVELS + MAX_LEVELS - 1u - level;
+}
+
+// Shows needed pages that are resident, and counts the others.
+fn show_resident(local: u32) {
+    if local < BEGINS {
+        atomicStore(&begins[local], 0u);
     }
     workgroupBarrier();
     for (var index = local; index < listed_count(); index += THREADS) {
         let needed = listed(index);
-        if is_needed(needed.entry) {
-            let place = resident(needed.entry);
-            if place != 0u {
-                page_table.entries[needed.entry] = (frame_stamp() << 16u) | place;
-                physical_pages[place - 1u].last_frame = pages_frame.frame;
-            } else {
-                atomicAdd(&level_begins[needed.page.level], 1u);
+        if !is_needed(needed.entry) {
+            continue;
+        }
+        for (var kind = STATIC; kind <= needed.has_movers; kind++) {
+            let place = resident(needed.entry, kind);
+            if place == 0u {
+                atomicAdd(&begins[begin_of(kind, needed.page.level)], 1u);
+                continue;
+            }
+            physical_pages[place - 1u].last_frame = pages_frame.frame;
+            if kind == needed.has_movers {
+                show(needed.entry, place - 1u);
             }
         }
     }
     storageBarrier();
     workgroupBarrier();
     if local == 0u {
-        // Coarse levels come first.
         var sum = 0u;
-        for (var level = MAX_LEVELS; level > 0u; level--) {
-            let count = atomicLoad(&level_begins[level - 1u]);
-            atomicStore(&level_begins[level - 1u], sum);
+        for (var index = 0u; index < BEGINS; index++) {
+            let count = atomicLoad(&begins[index]);
+            atomicStore(&begins[index], sum);
             sum += count;
         }
+        counters.drawn_static = atomicLoad(&begins[MAX_LEVELS]);
         missing = min(sum, pages_frame.page_count);
     }
     workgroupBarrier();
@@ -267,7 +306,7 @@ fn find_places(local: u32) {
         older = sum;
         // Age 0 is that of pages that this frame needs.
         missing = min(missing, select(sum + atomicLoad(&counts[age]), sum, age == 0u));
-        counters.resident = pages_frame.page_count - atomicLoad(&counts[FREE]);
+        counters.resident = min(pages_frame.page_count - atomicLoad(&counts[FREE]) + missing, pages_frame.page_count);
     }
     workgroupBarrier();
     var above = 0u;
@@ -295,10 +334,10 @@ fn find_places(local: u32) {
     for (var index = begin; index < end; index++) {
         let age = age_of(index);
         if age > oldest && rank_above < missing {
-            page_views.views[rank_above].tag = index;
+            page_views.views[rank_above].tag.x = index;
             rank_above++;
         } else if age == oldest && rank_equal < missing {
-            page_views.views[rank_equal].tag = index;
+            page_views.views[rank_equal].tag.x = index;
             rank_equal++;
         }
     }
@@ -306,29 +345,54 @@ fn find_places(local: u32) {
     workgroupBarrier();
 }
 
+// Gives a missing page the place of a rank.
+fn give_place(needed: ListedPage, kind: u32, rank: u32) {
+    let place = page_views.views[rank].tag.x;
+    if physical_pages[place].version != 0u {
+        free(place);
+    }
+    let level = level_of(needed.page);
+    let version = projections[needed.page.projection].version;
+    let frame = pages_frame.frame;
+    physical_pages[place] =
+        PhysicalPage(needed.page, version, level.exponent, frame, needed.entry, kind, frame, rank);
+    set_resident(needed.entry, kind, place);
+    if kind == needed.has_movers {
+        show(needed.entry, place);
+    }
+    page_views.views[rank].clip_from_world = clip_from_world(needed.page);
+    let texel = (needed.page.place + level.base) * i32(PAGE_TEXELS) - i32(BORDER_TEXELS);
+    page_views.views[rank].noise_px = vec2u(texel & vec2i(1023));
+    page_views.views[rank].casters = select(CASTERS_STATIC, CASTERS_MOVING, kind == COMPOSITE);
+    if kind == COMPOSITE {
+        page_views.views[rank].tag.y = static_depths(needed.entry);
+    }
+}
+
+// Where the depths of the static page of an entry are: see IS_LAYER. It has its place before the composite page.
+fn static_depths(entry: u32) -> u32 {
+    let place = resident(entry, STATIC) - 1u;
+    let layer = physical_pages[place].layer;
+    let is_drawn = physical_pages[place].drawn_frame == pages_frame.frame;
+    return select(place, layer | IS_LAYER, is_drawn);
+}
+
 // Gives the missing pages their places.
 fn assign(local: u32) {
     for (var index = local; index < listed_count(); index += THREADS) {
         let needed = listed(index);
-        if !is_needed(needed.entry) || resident(needed.entry) != 0u {
+        if !is_needed(needed.entry) {
             continue;
         }
-        let rank = atomicAdd(&level_begins[needed.page.level], 1u);
-        if rank >= missing {
-            continue;
+        for (var kind = STATIC; kind <= needed.has_movers; kind++) {
+            if resident(needed.entry, kind) != 0u {
+                continue;
+            }
+            let rank = atomicAdd(&begins[begin_of(kind, needed.page.level)], 1u);
+            if rank < missing {
+                give_place(needed, kind, rank);
+            }
         }
-        let place = page_views.views[rank].tag;
-        if physical_pages[place].version != 0u {
-            free(place);
-        }
-        let level = level_of(needed.page);
-        let version = projections[needed.page.projection].version;
-        physical_pages[place] =
-            PhysicalPage(needed.page, version, level.exponent, pages_frame.frame, needed.entry);
-        page_table.entries[needed.entry] = (frame_stamp() << 16u) | (place + 1u);
-        page_views.views[rank].clip_from_world = clip_from_world(needed.page);
-        let texel = (needed.page.place + level.base) * i32(PAGE_TEXELS) - i32(BORDER_TEXELS);
-        page_views.views[rank].noise_px = vec2u(texel & vec2i(1023));
     }
     storageBarrier();
     workgroupBarrier();
@@ -350,28 +414,32 @@ fn clip_from_world(page: Page) -> mat4x4f {
 @compute @workgroup_size(256)
 fn cs_allocate(@builtin(local_invocation_index) local: u32) {
     choose_coarsening(local);
-    stamp_resident(local);
+    show_resident(local);
     find_places(local);
     assign(local);
     for (var index = local; index < listed_count(); index += THREADS) {
-        atomicStore(&marks[2u * listed(index).entry + 1u], 0u);
+        atomicStore(&marks[words_of(listed(index).entry) + 1u], 0u);
     }
     if local == 0u {
         page_views.count = missing;
         page_views.side_px = PAGE_PX;
-        counters.missing = missing;
     }
 }
 
 @compute @workgroup_size(64)
 fn cs_finish(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) groups: vec3u) {
     for (var index = page_views.drawn + id.x; index < page_views.count; index += 64u * groups.x) {
-        free(page_views.views[index].tag);
+        let place = page_views.views[index].tag.x;
+        page_table.entries[physical_pages[place].entry] = 0u;
+        free(place);
     }
     if id.x == 0u {
         counters.vertex_count = 6u;
         counters.drawn = page_views.drawn;
         counters.first_vertex = 0u;
         counters.first_instance = 0u;
+        counters.drawn_static = min(counters.drawn_static, page_views.drawn);
+        counters.drawn_composite = page_views.drawn - counters.drawn_static;
+        counters.pairs = page_views.pairs;
     }
 }

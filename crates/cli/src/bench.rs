@@ -12,7 +12,7 @@ use super::fly::fly;
 use super::progress::Progress;
 use super::report::{self, COLUMNS};
 use shadowgraph::core::TimeSummary;
-use shadowgraph::{Culling, Gpu, Pipeline, Registry, RenderConfig, Renderer, ViewOptions};
+use shadowgraph::{Culling, FrameCounts, Gpu, Pipeline, Registry, RenderConfig, Renderer, ViewOptions};
 use shadowgraph_quality::TextTable;
 use shadowgraph_quality::bench::{
     Comparison, FrameTime, INSTANCES, MATERIALS, ManyFrames, MovingFrameTime, MovingFrames, Stats,
@@ -71,7 +71,7 @@ pub(crate) fn bench(args: &BenchArgs, registry: &Registry) -> Result<(), Failure
             let renderer = &mut input.renderer(&gpu)?;
             let times = whole_frames(&gpu, renderer, &view, frames)?;
             let passes = passes(&gpu, renderer, &view, frames)?;
-            let culled = culled_table(&gpu, renderer, &view)?;
+            let culled = count_tables(&gpu, renderer, &view)?;
             format!("{}\n{passes}{culled}", whole_frame_table(&times, &gpu.adapter.name))
         };
         drop(measuring);
@@ -221,15 +221,15 @@ fn whole_frame_table(frames: &[WholeFrame], device: &str) -> String {
     )
 }
 
-/// Formats how many instances the views of a frame draw that the GPU culls; empty if the CPU does.
-fn culled_table(gpu: &Gpu, renderer: &mut Renderer, view: &ViewOptions) -> Result<String, Failure> {
-    let culled = renderer.draw(gpu, view)?.culled;
-    if culled.is_empty() {
+/// Formats what the GPU counts in a frame: how many instances the views draw that it culls, and what the shadow technique counts.
+fn count_tables(gpu: &Gpu, renderer: &mut Renderer, view: &ViewOptions) -> Result<String, Failure> {
+    let counts = renderer.draw(gpu, view)?.counts;
+    if counts == FrameCounts::default() {
         return Ok(String::new());
     }
     let all = renderer.casters().scene.instance_count();
-    let table = report::culled(&culled);
-    Ok(format!("\ndrawn of {all} instances, in a frame after the measured ones\n{table}"))
+    let tables = report::counts(&counts);
+    Ok(format!("\ncounted in a frame after the measured ones, of {all} instances\n{tables}"))
 }
 
 fn ratio(stats: Stats) -> String {

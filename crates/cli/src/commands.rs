@@ -82,6 +82,7 @@ pub(super) fn draw_frames(
     }
     let drawn = renderer.draw_timed(gpu, &view, timer.as_mut())?;
     report::unshadowed(&drawn.unshadowed).iter().for_each(|line| console::warning(line));
+    drawn.counts.shadow_warning.iter().for_each(|line| console::warning(line));
     keep(frames.count - 1, drawn.image.clone())?;
     Ok(drawn)
 }

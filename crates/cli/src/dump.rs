@@ -8,9 +8,9 @@ use super::console;
 use super::failure::Failure;
 use super::progress::Progress;
 use super::report::{self, Planned};
-use shadowgraph::inspect::{self, Dump, HtmlPage, lights, trace_json};
+use shadowgraph::inspect::{self, Dump, HtmlPage, PageTable, lights, trace_json};
 use shadowgraph::output::write_text;
-use shadowgraph::{Gpu, Pipeline, Registry, RenderedFrame};
+use shadowgraph::{FrameCounts, Gpu, Pipeline, Registry, RenderedFrame};
 
 /// Title of pages, followed by the file of the scene.
 const TITLE: &str = "Shadowgraph frame";
@@ -39,8 +39,7 @@ fn plan_text(args: &DumpArgs, format: Format, mut input: Input) -> Result<String
         Format::Text if drawn.times.is_empty() => report::text(&lights, &drawn),
         Format::Text => {
             let times = report::times(&drawn.times, &gpu.adapter);
-            let culled = if drawn.culled.is_empty() { String::new() } else { report::culled(&drawn.culled) };
-            [&report::text(&lights, &drawn), "\n", &times, &culled].concat()
+            [&report::text(&lights, &drawn), "\n", &times, &report::counts(&drawn.counts)].concat()
         }
         Format::Json => report::json(&lights, &drawn)?,
         Format::Dot => drawn.plan.to_dot(),
@@ -90,6 +89,13 @@ fn page(args: &DumpArgs, input: Input) -> Result<String, Failure> {
     let mut page = inspected.page(&scene_lights, &view);
     page.notes.push(format!("Rendered by {}.", gpu.adapter.name));
     page.notes.extend(report::unshadowed(&inspected.frame.unshadowed));
+    let FrameCounts { shadows, shadow_warning, .. } = &inspected.frame.counts;
+    page.notes.extend(shadow_warning.clone());
+    if !shadows.is_empty() {
+        let rows = shadows.iter().map(|(name, count)| vec![(*name).to_owned(), count.to_string()]).collect();
+        let columns = vec!["shadows".to_owned(), "number".to_owned()];
+        page.tables.push(PageTable { title: "Shadow maps".into(), columns, rows });
+    }
     let kept = "Shadow maps are drawn as in a first frame; `explain cascades --frames 3` says what the third one keeps.";
     page.notes.push(kept.into());
     Ok(finish(page))
@@ -154,9 +160,9 @@ fn disabled(node: &str, pipeline: &Pipeline) -> String {
 fn planned(args: &DrawArgs, frames: FramesArgs, input: Input) -> Result<(Gpu, Planned), Failure> {
     if input.options.timings {
         let gpu = Gpu::open(&input.options.adapter).map_err(Failure::no_device)?;
-        let RenderedFrame { plan, times, unshadowed, culled, .. } =
+        let RenderedFrame { plan, times, unshadowed, counts, .. } =
             draw_frames(&gpu, input, frames, &mut |_, _| Ok(()))?;
-        return Ok((gpu, Planned { plan, times, unshadowed, culled }));
+        return Ok((gpu, Planned { plan, times, unshadowed, counts }));
     }
     let gpu = if args.names_adapter() {
         Gpu::open(&input.options.adapter).map_err(Failure::no_device)?
@@ -167,5 +173,5 @@ fn planned(args: &DrawArgs, frames: FramesArgs, input: Input) -> Result<(Gpu, Pl
     let (mut renderer, view) = play(&gpu, input, frames, &drawing, &mut |_, _| Ok(()))?;
     renderer.begin_frame(&gpu, &view)?;
     let (plan, unshadowed) = renderer.plan(&view)?;
-    Ok((gpu, Planned { plan, times: Vec::new(), unshadowed, culled: Vec::new() }))
+    Ok((gpu, Planned { plan, times: Vec::new(), unshadowed, counts: Default::default() }))
 }

@@ -4,12 +4,12 @@ use std::sync::Arc;
 
 use super::failure::Failure;
 use serde_json::{Value, json};
-use shadowgraph::CulledView;
 use shadowgraph::core::{PassTime, Plan};
 use shadowgraph::inspect::lights::{kind, shadows, unit};
 use shadowgraph::scene::Light;
 use shadowgraph::shadows::Unshadowed;
 use shadowgraph::wgpu::AdapterInfo;
+use shadowgraph::{CulledView, FrameCounts};
 use shadowgraph_quality::TextTable;
 
 /// Maximum length of the lines of tables.
@@ -21,8 +21,8 @@ pub(crate) struct Planned {
     /// Empty unless requested.
     pub(crate) times: Vec<PassTime>,
     pub(crate) unshadowed: Vec<Unshadowed>,
-    /// Empty unless times are requested and the GPU culls.
-    pub(crate) culled: Vec<CulledView>,
+    /// Empty unless times are requested.
+    pub(crate) counts: FrameCounts,
 }
 
 /// Formats the plan as text, with the scene's lights.
@@ -59,18 +59,29 @@ pub(crate) fn json(lights: &[Light], planned: &Planned) -> Result<String, Failur
     if !planned.times.is_empty() {
         document["times"] = serde_json::to_value(&planned.times)?;
     }
-    if !planned.culled.is_empty() {
-        let culled = planned.culled.iter();
+    if !planned.counts.culled.is_empty() {
+        let culled = planned.counts.culled.iter();
         document["culled"] =
             culled.map(|view| json!({"view": view.view, "instances": view.instances})).collect();
+    }
+    if !planned.counts.shadows.is_empty() {
+        let shadows = planned.counts.shadows.iter();
+        document["shadow_counts"] = shadows.map(|(name, count)| (*name, *count)).collect();
     }
     let mut text = serde_json::to_string_pretty(&document)?;
     text.push('\n');
     Ok(text)
 }
 
-/// Returns a table of the instances that views draw which the GPU culls.
-pub(crate) fn culled(culled: &[CulledView]) -> String {
+/// Returns tables of what the GPU has counted.
+pub(crate) fn counts(counts: &FrameCounts) -> String {
+    let culled = if counts.culled.is_empty() { String::new() } else { culled(&counts.culled) };
+    let rows = counts.shadows.iter().map(|(name, count)| [(*name).to_owned(), count.to_string()]);
+    let shadows = TextTable { alignment: "lr", indent: 2, width: COLUMNS }.format(rows);
+    culled + &shadows
+}
+
+fn culled(culled: &[CulledView]) -> String {
     let heading = ["culled on the GPU", "instances"].map(str::to_owned);
     let rows = culled.iter().map(|CulledView { view, instances }| [view.clone(), instances.to_string()]);
     let rows: Vec<_> = [heading].into_iter().chain(rows).collect();

@@ -40,7 +40,8 @@ struct CullLayers {
     excluded: u32,
     pair_capacity: u32,
     view_capacity: u32,
-    padding: [u32; 2],
+    moving: u32,
+    padding: u32,
 }
 
 /// The entry points, in their order.
@@ -102,7 +103,8 @@ impl LayerCullPass {
             excluded: query.excluded.bits(),
             pair_capacity,
             view_capacity: query.capacity,
-            padding: [0; 2],
+            moving: CullFlags::MOVING.bits(),
+            padding: 0,
         };
         let block = frame.uniform(bytemuck::bytes_of(&block));
         let batches = u64::from(inputs.batch_count.max(1));

@@ -77,7 +77,7 @@ pub use pipelines::Pipeline;
 pub use registry::Registry;
 pub use render_config::RenderConfig;
 pub use render_view::RenderView;
-pub use rendered::{CulledView, RenderedFrame, RenderedImage, shadow_ms};
+pub use rendered::{CulledView, FrameCounts, RenderedFrame, RenderedImage, shadow_ms};
 pub use renderer::Renderer;
 pub use renderer::aov::ViewOutput;
 pub use renderer::counts::PendingCounts;

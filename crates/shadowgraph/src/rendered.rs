@@ -47,8 +47,19 @@ pub struct RenderedFrame {
     pub times: Vec<PassTime>,
     /// The lights that should cast shadows and do not, with the reason.
     pub unshadowed: Vec<Unshadowed>,
-    /// How many instances the passes draw that the GPU has culled.
+    /// What the GPU has counted.
+    pub counts: FrameCounts,
+}
+
+/// What the GPU counts in a frame.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct FrameCounts {
+    /// How many instances the passes draw that the GPU has culled; empty if the CPU culls.
     pub culled: Vec<CulledView>,
+    /// What the shadow technique counts, such as pages; empty for most.
+    pub shadows: Vec<(&'static str, u32)>,
+    /// What users should know about these numbers.
+    pub shadow_warning: Option<String>,
 }
 
 /// How many instances a view draws that the GPU has culled.

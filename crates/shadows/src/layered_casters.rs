@@ -4,7 +4,7 @@ use shadowgraph_core::{Buffer, BufferToken, Error as GraphError, Frame, RenderCo
 use shadowgraph_scene::Aabb;
 
 /// Casters that are drawn in views that only the GPU knows: each view has a layer of a buffer of depths. See the WGSL module
-/// `shadowgraph::layer_views`.
+/// `shadowgraph::layer_views`. A view has the static casters, the moving ones, or both.
 ///
 /// Layers hold the bits of floats: 1 nearest to the light, 0 farthest and empty. Casters in front of the near plane have depth 1.
 pub trait LayeredCasters: Sync {

@@ -150,6 +150,15 @@ fn biased(projection: Projection, light: ShadowLight, level: u32, position: vec3
     return position + normal * (light.normal_bias_texels * sine * ldexp(projection.texel_m * w, i32(level)));
 }
 
+// In the second part of the tag of a composite page's view: the depths of the static page are those of a layer of this frame, not of a place in
+// the pool.
+const IS_LAYER: u32 = 0x80000000u;
+
+// The first texel of a place in a pool with some pages along its width.
+fn place_texel(place: u32, columns: u32) -> vec2u {
+    return PAGE_PX * vec2u(place % columns, place / columns);
+}
+
 // The page of the next level that contains a page.
 fn parent_of(page: Page, level: Level) -> Page {
     return Page(page.projection, page.level + 1u, (page.place + (level.base & vec2i(1))) >> vec2u(1u));

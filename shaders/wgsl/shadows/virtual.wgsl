@@ -10,7 +10,7 @@
 #import shadowgraph::shadows::maps::read_page
 #import shadowgraph::shadows::pages::{
     BLEND_PART, BORDER_TEXELS, COARSENING_STEPS, Level, Page, PAGE_PX, PAGE_TEXELS, PageTable, Projection, biased, entry_of, has_entry,
-    in_level, page_of, project, wanted_level,
+    in_level, page_of, place_texel, project, wanted_level,
 }
 #import shadowgraph::shadows::types::{NOT_A_CASCADE, ShadowLight, ShadowView}
 #import shadowgraph::shadows::variant::DIRECTIONAL
@@ -48,9 +48,8 @@ fn find_page(index: u32, projection: Projection, shadow: ShadowLight, receiver: 
         }
         let entry = page_table.entries[entry_of(projection, level, place)];
         if entry >> 16u == page_table.stamp && (entry & 0xffffu) != 0u {
-            let slot = (entry & 0xffffu) - 1u;
-            let at = vec2u(slot % page_table.pool_columns, slot / page_table.pool_columns);
-            found = Found(Page(index, number, place), vec2f(at * PAGE_PX), true);
+            let texel = place_texel((entry & 0xffffu) - 1u, page_table.pool_columns);
+            found = Found(Page(index, number, place), vec2f(texel), true);
             break;
         }
     }

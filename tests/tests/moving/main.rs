@@ -9,6 +9,7 @@ mod culling;
 mod equal;
 mod images;
 mod maps;
+mod pages;
 mod scene_counts;
 mod walking;
 mod worlds;

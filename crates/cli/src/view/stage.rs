@@ -15,7 +15,7 @@ use shadowgraph::options::{Aov, GroundChoice, OptionError, SettingsFile, ShadowD
 use shadowgraph::scene::{AnimationSelection, Camera, Scene};
 use shadowgraph::shadows::{BudgetConfig, QualityController, SettingTracks, ShadowSettings, Technique};
 use shadowgraph::{
-    Background, CulledView, Culling, Gpu, Pipeline, Registry, RenderConfig, Renderer, ShadowLines,
+    Background, Culling, FrameCounts, Gpu, Pipeline, Registry, RenderConfig, Renderer, ShadowLines,
     ViewOptions, shadow_ms, wgpu,
 };
 use shadowgraph_samples::demo::demo_scene;
@@ -52,7 +52,7 @@ pub(super) struct Stage {
     /// The plan of the last valid frame.
     pub(super) plan: Option<Arc<Plan>>,
     /// What views of that frame draw that the GPU culls, of how many instances.
-    pub(super) culled: (Vec<CulledView>, usize),
+    pub(super) counts: (FrameCounts, usize),
     /// Error of the current frame, which keeps the last valid image.
     pub(super) error: Option<String>,
     /// Error of the last file that was loaded.
@@ -106,7 +106,7 @@ impl Stage {
             tracks: input.options.tracks,
             times: TimeHistory::new(FRAMES),
             plan: None,
-            culled: Default::default(),
+            counts: Default::default(),
             error: None,
             file_error: None,
             note: String::new(),
@@ -240,7 +240,7 @@ impl Stage {
             self.file_error = Some(error.to_string());
         }
         let mut timer = Timer::new();
-        let (plan, culled) = gpu.checked(|| -> Result<_, shadowgraph::Error> {
+        let (plan, counts) = gpu.checked(|| -> Result<_, shadowgraph::Error> {
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
             let (executed, counts) =
                 renderer.record_measured(gpu, &mut encoder, target, &options, &mut timer)?;
@@ -253,7 +253,7 @@ impl Stage {
         }
         self.times.add(&times);
         self.plan = Some(plan);
-        self.culled = (culled, renderer.casters().scene.instance_count());
+        self.counts = (counts, renderer.casters().scene.instance_count());
         Ok(())
     }
 

@@ -1,53 +1,77 @@
-//! The numbers of instances that culled views draw, read back.
+//! What the GPU counts in a frame, read back.
 
 use shadowgraph_core::{Executed, Frame, ReadBack, ReadBackRequest, Subresource};
 use shadowgraph_lighting::{CullCount, CullCounts};
+use shadowgraph_shadows::ShadowCounts;
 
 use crate::error::Error;
-use crate::rendered::CulledView;
+use crate::rendered::{CulledView, FrameCounts};
 
-/// Requests of a frame that is not executed yet, with the names of the views.
-pub(super) struct CountRequests(Vec<(Vec<String>, ReadBackRequest)>);
+/// Requests of a frame that is not executed yet.
+pub(super) struct CountRequests {
+    /// With the names of the views.
+    culled: Vec<(Vec<String>, ReadBackRequest)>,
+    shadows: Option<(ShadowCounts, ReadBackRequest)>,
+}
 
 impl CountRequests {
     /// Requests the numbers that the passes of `frame` publish.
     pub(super) fn new(frame: &mut Frame<'_>) -> Self {
         let counts = CullCounts::published_in(frame).0.into_iter();
-        Self(
-            counts
-                .map(|CullCount { views, buffer, bytes }| {
-                    (views, frame.read_back_buffer(&buffer, Subresource::FULL.bytes(bytes)))
-                })
-                .collect(),
-        )
+        let culled = counts
+            .map(|CullCount { views, buffer, bytes }| {
+                (views, frame.read_back_buffer(&buffer, Subresource::FULL.bytes(bytes)))
+            })
+            .collect();
+        let shadows = frame.published::<ShadowCounts>().ok().cloned();
+        let shadows = shadows.map(|counts| {
+            let part = Subresource::FULL.bytes(counts.bytes.clone());
+            let request = frame.read_back_buffer(&counts.buffer, part);
+            (counts, request)
+        });
+        Self { culled, shadows }
     }
 
     /// Takes the results of the frame, which arrive once it is submitted.
     pub(super) fn take(self, executed: &mut Executed) -> PendingCounts {
-        let taken = self.0.into_iter().map(|(views, request)| (views, executed.read_back(request)));
-        PendingCounts(taken.collect())
+        let culled = self.culled.into_iter();
+        PendingCounts {
+            culled: culled.map(|(views, request)| (views, executed.read_back(request))).collect(),
+            shadows: self.shadows.map(|(counts, request)| (counts, executed.read_back(request))),
+        }
     }
 }
 
-/// The numbers of instances that the culled views of a recorded frame draw; they arrive once it is submitted.
-pub struct PendingCounts(Vec<(Vec<String>, Option<ReadBack>)>);
+/// What the GPU counts in a recorded frame; the numbers arrive once it is submitted.
+pub struct PendingCounts {
+    culled: Vec<(Vec<String>, Option<ReadBack>)>,
+    shadows: Option<(ShadowCounts, Option<ReadBack>)>,
+}
 
 impl PendingCounts {
-    /// Waits for the submitted frame, and returns the numbers; none if the CPU culled.
+    /// Waits for the submitted frame, and returns the numbers.
     ///
     /// # Errors
     /// As [`ReadBack::wait`].
-    pub fn wait(self, device: &wgpu::Device) -> Result<Vec<CulledView>, Error> {
-        let mut culled = Vec::new();
-        for (views, bytes) in self.0 {
-            let bytes = bytes.ok_or_else(read_back_error)?.wait(device)?;
-            let numbers = bytes.as_chunks().0.iter().map(|&number| u32::from_le_bytes(number));
-            culled.extend(
-                views.into_iter().zip(numbers).map(|(view, instances)| CulledView { view, instances }),
-            );
+    pub fn wait(self, device: &wgpu::Device) -> Result<FrameCounts, Error> {
+        let mut counts = FrameCounts::default();
+        for (views, bytes) in self.culled {
+            let numbers = numbers(bytes, device)?.into_iter();
+            let views = views.into_iter().zip(numbers);
+            counts.culled.extend(views.map(|(view, instances)| CulledView { view, instances }));
         }
-        Ok(culled)
+        if let Some((ShadowCounts { names, warning, .. }, bytes)) = self.shadows {
+            let numbers = numbers(bytes, device)?;
+            counts.shadow_warning = warning(&numbers);
+            counts.shadows = names.iter().copied().zip(numbers).collect();
+        }
+        Ok(counts)
     }
+}
+
+fn numbers(bytes: Option<ReadBack>, device: &wgpu::Device) -> Result<Vec<u32>, Error> {
+    let bytes = bytes.ok_or_else(read_back_error)?.wait(device)?;
+    Ok(bytes.as_chunks().0.iter().map(|&number| u32::from_le_bytes(number)).collect())
 }
 
 /// Returns the error for a read-back that the frame did not execute.

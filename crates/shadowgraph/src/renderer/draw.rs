@@ -70,11 +70,11 @@ impl Renderer {
             let mut executed = execute(compiled, &mut graph)?;
             drop(graph);
             let texels = executed.read_back(request).ok_or_else(read_back_error)?;
-            let culled = counts.take(&mut executed).wait(&gpu.device)?;
+            let counts = counts.take(&mut executed).wait(&gpu.device)?;
             let image = RenderedImage { size_px: options.size_px, rgba8: texels.wait(&gpu.device)? };
             let (plan, times) = (executed.shared_plan(), Vec::new());
             let unshadowed = output.unshadowed;
-            Ok((RenderedFrame { image, plan, times, unshadowed, culled }, output.shadow_buffers))
+            Ok((RenderedFrame { image, plan, times, unshadowed, counts }, output.shadow_buffers))
         });
         self.count_frame();
         drawn

@@ -30,7 +30,7 @@ impl Renderer {
     }
 
     /// Records a view like [`record`](Self::record), measures every pass with `timer`, which is read when the encoder is submitted, and
-    /// counts what culled views draw.
+    /// reads back what the GPU counts.
     ///
     /// # Errors
     /// As `record`.

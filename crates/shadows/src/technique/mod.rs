@@ -1,6 +1,7 @@
 //! The contract between shadow techniques and the passes that light a scene.
 
 mod check;
+mod counts;
 mod gpu_struct;
 mod layout;
 mod mask_layers;
@@ -8,6 +9,7 @@ mod outputs;
 
 pub(crate) use check::add_checked;
 pub use check::add_shadows;
+pub use counts::ShadowCounts;
 pub use gpu_struct::{GpuData, GpuField, GpuStruct};
 pub(crate) use layout::layout;
 pub use layout::{binding, shadow_layout};

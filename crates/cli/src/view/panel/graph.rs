@@ -3,8 +3,8 @@
 use egui::{CollapsingHeader, Grid, Ui};
 
 use super::super::stage::Stage;
-use shadowgraph::CulledView;
 use shadowgraph::core::{NodeId, PassId, Plan, TimeSummary};
+use shadowgraph::{CulledView, FrameCounts};
 
 #[derive(Default)]
 pub(super) struct GraphPanel {
@@ -22,7 +22,7 @@ impl GraphPanel {
             plan.culled_count(),
             plan.slot_bytes() as f64 / 1_048_576.0
         ));
-        drawn(ui, &stage.culled);
+        drawn(ui, &stage.counts);
         let times = stage.times.summary();
         // Times are in order of recording; the first frame of a new plan has none yet.
         let times = |index: usize| times.get(index).filter(|_| times.len() == plan.order().len());
@@ -88,18 +88,38 @@ impl GraphPanel {
 }
 
 /// Shows how many of all instances the views draw that the GPU culls.
-fn drawn(ui: &mut Ui, (culled, all): &(Vec<CulledView>, usize)) {
-    if culled.is_empty() {
+fn drawn(ui: &mut Ui, (counts, all): &(FrameCounts, usize)) {
+    shadow_counts(ui, counts);
+    if counts.culled.is_empty() {
         return;
     }
     CollapsingHeader::new(format!("drawn of {all} instances")).default_open(true).show(ui, |ui| {
         Grid::new("drawn").num_columns(2).striped(true).show(ui, |ui| {
-            for CulledView { view, instances } in culled {
+            for CulledView { view, instances } in &counts.culled {
                 ui.label(view);
                 ui.monospace(instances.to_string());
                 ui.end_row();
             }
         });
+    });
+}
+
+/// Shows what the shadow technique counts.
+fn shadow_counts(ui: &mut Ui, counts: &FrameCounts) {
+    if counts.shadows.is_empty() {
+        return;
+    }
+    CollapsingHeader::new("shadows").default_open(true).show(ui, |ui| {
+        Grid::new("shadow counts").num_columns(2).striped(true).show(ui, |ui| {
+            for (name, count) in &counts.shadows {
+                ui.label(*name);
+                ui.monospace(count.to_string());
+                ui.end_row();
+            }
+        });
+        if let Some(warning) = &counts.shadow_warning {
+            ui.colored_label(ui.visuals().warn_fg_color, warning);
+        }
     });
 }
 
@@ -110,11 +130,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn each_culled_view_is_shown_with_what_it_draws() {
+    fn counts_are_shown_with_their_names() {
         let views = [("camera", 12), ("cascade 0", 345)];
-        let culled = views.map(|(view, instances)| CulledView { view: view.into(), instances });
+        let culled = views.map(|(view, instances)| CulledView { view: view.into(), instances }).to_vec();
+        let shadow_warning = Some("the pool is too small".to_owned());
+        let counts = FrameCounts { culled, shadows: vec![("pages needed", 67)], shadow_warning };
         let mut output =
-            Context::default().run_ui(RawInput::default(), |ui| drawn(ui, &(culled.to_vec(), 1000)));
+            Context::default().run_ui(RawInput::default(), |ui| drawn(ui, &(counts.clone(), 1000)));
         output.textures_delta.clear();
         let texts: Vec<_> = output
             .shapes
@@ -124,7 +146,8 @@ mod tests {
                 _ => None,
             })
             .collect();
-        for expected in ["drawn of 1000 instances", "camera", "12", "cascade 0", "345"] {
+        let expected = ["drawn of 1000 instances", "camera", "12", "cascade 0", "345"];
+        for expected in expected.into_iter().chain(["pages needed", "67", "the pool is too small"]) {
             assert!(texts.iter().any(|text| text == expected), "{expected}: {texts:?}");
         }
     }

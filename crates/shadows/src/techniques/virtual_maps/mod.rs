@@ -146,10 +146,10 @@ impl ShadowTechnique for VirtualMaps {
         let casters = casters.ok_or_else(|| Error::MissingLayers { technique: self.name().into() })?;
         let store = self.stores.fitting(&self.device, inputs.view, size, plan.slots.entry_count());
         let known = store.known().clone();
-        let (next, changes) = known.next((inputs.casters, casters), inputs.origin_world, plan.slots.clone());
+        let (next, boxes) = known.next((inputs.casters, casters), inputs.origin_world, plan.slots.clone());
         frame.node("shadows", |frame| {
             let inputs = (inputs, buffers, &settings);
-            let store = (&store, next, &changes);
+            let store = (&store, next, &boxes);
             let FrameBuffers { projections, levels, lights, table, pool } =
                 self.passes.add_to(frame, inputs, (&plan, casters), store);
             let buffers = [projections, levels, lights, table].map(ShadowBinding::Buffer);

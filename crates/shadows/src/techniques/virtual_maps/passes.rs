@@ -1,23 +1,23 @@
 //! The passes that bring the pages of a frame up to date.
 
-use shadowgraph_core::{Bind, Buffer, BufferDesc, Contents, Format, Frame, Texture, TextureDesc};
+use shadowgraph_core::{Bind, Buffer, BufferDesc, Contents, Format, Frame, Texture, TextureDesc, Uniform};
 use shadowgraph_shaders::compose;
 
 use super::plan::{MAX_COARSE, VirtualPlan};
 use super::projections::PAGE_PX;
 use super::settings::VirtualSettings;
-use super::store::{Changes, MAX_CHANGED, PageStore, StoreState};
+use super::store::{Boxes, MAX_BOXES, PageStore, StoreState};
 use crate::error::Error;
 use crate::layered_casters::{LayerTokens, LayeredCasters};
 use crate::plan::ShadowInputs;
-use crate::technique::binding::{FLOAT_MAP, STORAGE, UNIFORM};
-use crate::technique::{SurfaceBuffers, layout};
+use crate::technique::binding::{DEPTH_MAP, FLOAT_MAP, STORAGE, UNIFORM};
+use crate::technique::{ShadowCounts, SurfaceBuffers, layout};
 use crate::techniques::compute::{WRITTEN, dispatch, pipeline, shader};
 use crate::vertex_buffers::VertexBuffers;
 use std::sync::Arc;
 
-/// The side of a workgroup that marks pages, pixels.
-const WORKGROUP_PX: u32 = 8;
+/// The side of a workgroup that marks pages, pixels: 8 x 8 threads, each with 4 x 4 pixels.
+const WORKGROUP_PX: u32 = 32;
 /// Threads of a workgroup of passes over pages.
 const THREADS: u32 = 64;
 /// Workgroups of passes over lists whose length the CPU does not know.
@@ -28,8 +28,28 @@ const NEEDS: u32 = 1 << 16;
 /// Bytes of `ListedPage`, `Counters` and `LayerView`, and of the header of `LayerViews`.
 const LISTED_BYTES: u64 = 24;
 const COUNTER_BYTES: u64 = 48;
-const VIEW_BYTES: u64 = 80;
+const VIEW_BYTES: u64 = 96;
 const VIEWS_HEADER_BYTES: u64 = 16;
+
+/// The numbers of `Counters` that are read back, from `needed` on, and their bytes.
+const COUNTS: [&str; 6] = [
+    "pages needed",
+    "pages resident",
+    "static pages drawn",
+    "composite pages drawn",
+    "casters drawn into pages",
+    "coarsening, quarters of a level",
+];
+const COUNT_BYTES: std::ops::Range<u64> = 24..COUNTER_BYTES;
+
+/// Returns a sentence if the pool is too small.
+fn warning(counts: &[u32]) -> Option<String> {
+    let quarters = counts.last().copied().filter(|quarters| *quarters > 0)?;
+    let levels = f64::from(quarters) / 4.0;
+    Some(format!(
+        "shadow maps are coarser by {levels} levels than pixels ask for: the pool of `virtual` (pool_mib) is too small"
+    ))
+}
 
 /// The pipelines and their layouts.
 pub(super) struct Passes {
@@ -37,12 +57,14 @@ pub(super) struct Passes {
     state_layout: wgpu::BindGroupLayout,
     mark_layout: wgpu::BindGroupLayout,
     update_layout: wgpu::BindGroupLayout,
+    combine_layout: wgpu::BindGroupLayout,
     store_layout: wgpu::BindGroupLayout,
     mark: wgpu::ComputePipeline,
     validate: wgpu::ComputePipeline,
     list: wgpu::ComputePipeline,
     allocate: wgpu::ComputePipeline,
     finish: wgpu::ComputePipeline,
+    combine: wgpu::ComputePipeline,
     store: wgpu::RenderPipeline,
 }
 
@@ -67,6 +89,8 @@ impl Passes {
         let updating = shader(device, "pages_update.wgsl", compose("pages_update.wgsl", &[])?);
         let update =
             |entry| pipeline(device, &updating, entry, &[&view_layout, &state_layout, &update_layout]);
+        let combine_layout = layout(device, "combine pages", &[STORAGE, WRITTEN, UNIFORM, DEPTH_MAP]);
+        let combining = shader(device, "pages_combine.wgsl", compose("pages_combine.wgsl", &[])?);
         let (store_layout, store) = store_pipeline(device)?;
         Ok(Self {
             mark,
@@ -74,11 +98,13 @@ impl Passes {
             list: update("cs_list"),
             allocate: update("cs_allocate"),
             finish: update("cs_finish"),
+            combine: pipeline(device, &combining, "cs_combine", &[&combine_layout]),
             store,
             view_layout,
             state_layout,
             mark_layout,
             update_layout,
+            combine_layout,
             store_layout,
         })
     }
@@ -89,9 +115,9 @@ impl Passes {
         frame: &mut Frame<'f>,
         (inputs, buffers, settings): (&ShadowInputs<'f>, &SurfaceBuffers, &VirtualSettings),
         (plan, casters): (&VirtualPlan, &'f dyn LayeredCasters),
-        (store, next, changes): (&Arc<PageStore>, StoreState, &Changes),
+        (store, next, boxes): (&Arc<PageStore>, StoreState, &Boxes),
     ) -> FrameBuffers {
-        let block = frame_block(inputs, settings, plan, (store, &next, changes));
+        let block = frame_block(inputs, settings, plan, (store, &next, boxes));
         let upload = |frame: &mut Frame<'f>, name: &'static str, bytes: &[u8]| {
             frame.upload_buffer(name, bytes.to_vec())
         };
@@ -125,8 +151,13 @@ impl Passes {
         self.update(frame, &mut steps, "finish", vec![(&self.finish, 4)], || {});
         let mut depths = frame.import_buffer("page depths", &store.depths, true);
         draw(frame, casters, &drawn, &steps.views, &mut depths);
-        let pool = self.store(frame, &steps, store, &mut depths);
-        let Steps { projections, levels, lights, table, .. } = steps;
+        let [width, height] = store.size.size_px;
+        let size = frame.uniform(bytemuck::cast_slice(&[width, height, store.size.columns, 0]));
+        let mut pool = frame.import_texture("page pool", &store.pool, true);
+        self.combine(frame, &steps, (&pool, size), &mut depths);
+        self.store(frame, &steps, (&mut pool, size), &mut depths);
+        let Steps { projections, levels, lights, table, counters, .. } = steps;
+        frame.publish(ShadowCounts { names: &COUNTS, buffer: counters, bytes: COUNT_BYTES, warning });
         FrameBuffers { projections, levels, lights, table, pool }
     }
 
@@ -179,22 +210,40 @@ impl Passes {
         });
     }
 
+    /// Adds the pass that adds static casters to the layers of composite pages.
+    fn combine<'f>(
+        &'f self,
+        frame: &mut Frame<'f>,
+        steps: &Steps,
+        (pool, size): (&Texture, Uniform),
+        depths: &mut Buffer,
+    ) {
+        let mut pass = frame.compute_pass("combine");
+        let views = pass.storage_buffer(&steps.views);
+        let depths = pass.storage_buffer_mut(depths, Contents::Preserve);
+        let pool = pass.sample(pool);
+        pass.body(move |ctx| {
+            let bindings =
+                [Bind::Buffer(views), Bind::Buffer(depths), Bind::Uniform(size), Bind::Texture(pool)];
+            let group = ctx.bind_group(&self.combine_layout, &bindings)?;
+            dispatch(&mut ctx.pass, &self.combine, &[group], [LIST_WORKGROUPS, 1, 1]);
+            Ok(())
+        });
+    }
+
     /// Adds the pass that stores drawn pages in the pool.
     fn store<'f>(
         &'f self,
         frame: &mut Frame<'f>,
         steps: &Steps,
-        store: &PageStore,
+        (pool, size): (&mut Texture, Uniform),
         depths: &mut Buffer,
-    ) -> Texture {
-        let mut pool = frame.import_texture("page pool", &store.pool, true);
-        let [width, height] = store.size.size_px;
-        let size = frame.uniform(bytemuck::cast_slice(&[width, height, store.size.columns, 0]));
+    ) {
         let mut pass = frame.render_pass("store");
         let views = pass.storage_buffer(&steps.views);
         let depths = pass.storage_buffer_mut(depths, Contents::Preserve);
         let counters = pass.indirect_buffer(&steps.counters);
-        pass.depth(&mut pool, Contents::Preserve);
+        pass.depth(pool, Contents::Preserve);
         pass.body(move |ctx| {
             let bindings = [Bind::Buffer(views), Bind::Buffer(depths), Bind::Uniform(size)];
             let group = ctx.bind_group(&self.store_layout, &bindings)?;
@@ -204,7 +253,6 @@ impl Passes {
             ctx.pass.draw_indirect(counters, 0);
             Ok(())
         });
-        pool
     }
 }
 
@@ -269,19 +317,20 @@ fn frame_block(
     inputs: &ShadowInputs<'_>,
     settings: &VirtualSettings,
     plan: &VirtualPlan,
-    (store, next, changes): (&PageStore, &StoreState, &Changes),
+    (store, next, boxes): (&PageStore, &StoreState, &Boxes),
 ) -> Vec<u8> {
-    let mut boxes = Vec::with_capacity(2 * MAX_CHANGED);
-    if let Changes::Within(changed) = changes {
-        for bounds in changed {
+    let changed = boxes.changed.as_deref().unwrap_or_default();
+    let ends = [changed.len(), boxes.moved.len(), boxes.movers.len()].map(|count| count as u32);
+    let all = changed.iter().chain(&boxes.moved).chain(&boxes.movers);
+    let mut words: Vec<glam::Vec4> = all
+        .flat_map(|bounds| {
             let center = (bounds.center() - inputs.origin_world).as_vec3();
             // Rounding of the centre is covered too.
             let half_size = bounds.half_extent().as_vec3() * 1.000_001 + center.abs() * 1e-6;
-            boxes.extend([center, half_size].map(|part| part.extend(0.0)));
-        }
-    }
-    let changed_count = boxes.len() as u32 / 2;
-    boxes.resize(2 * MAX_CHANGED, glam::Vec4::ZERO);
+            [center, half_size].map(|part| part.extend(0.0))
+        })
+        .collect();
+    words.resize(2 * MAX_BOXES, glam::Vec4::ZERO);
     let mut coarse = plan.coarse.clone();
     coarse.resize(MAX_COARSE, [0; 4]);
     let header = [
@@ -290,15 +339,15 @@ fn frame_block(
         store.size.columns,
         inputs.lights.len() as u32,
         plan.coarse.len() as u32,
-        changed_count,
+        ends[0],
+        ends[0] + ends[1],
+        ends[0] + ends[1] + ends[2],
         REQUESTS,
         NEEDS,
         settings.level_bias.to_bits(),
-        u32::from(*changes == Changes::Anywhere),
-        0,
-        0,
+        u32::from(boxes.changed.is_none()),
     ];
-    [bytemuck::cast_slice(&header), bytemuck::cast_slice(&coarse), bytemuck::cast_slice::<_, u8>(&boxes)]
+    [bytemuck::cast_slice(&header), bytemuck::cast_slice(&coarse), bytemuck::cast_slice::<_, u8>(&words)]
         .concat()
 }
 

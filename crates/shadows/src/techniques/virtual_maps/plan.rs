@@ -7,7 +7,7 @@ use super::projections::{
     DIRECTIONAL_LEVELS, DirectionalLevel, GpuLevel, GpuProjection, LOCAL_LEVELS, LOCAL_TEXELS, PAGE_PX,
     Projection, Viewpoint, local_levels, map_position,
 };
-use super::slots::Slots;
+use super::slots::{Group, Slots};
 use crate::error::Error;
 use crate::light_params::LightShadowParams;
 use crate::plan::ShadowInputs;
@@ -62,12 +62,16 @@ impl VirtualPlan {
         let mut coarse = Vec::new();
         let mut groups = Vec::new();
         candidates.retain(|candidate| {
-            let group = projections(inputs, candidate);
-            let own = coarse_pages(&group, &viewpoint, &view, budget);
-            let fits = coarse.len() + own.len() <= MAX_COARSE.min(page_count as usize);
+            let projections = projections(inputs, candidate);
+            let own = coarse_pages(&projections, &viewpoint, &view, budget);
+            let fits = coarse.len() + own.len() <= MAX_COARSE.min(page_count as usize / 2);
             if fits {
+                let keeps = match candidate.shape {
+                    Shape::Directional { .. } => inputs.settings.cascades.cache,
+                    Shape::Spot { .. } | Shape::Point { .. } => inputs.settings.atlas.cache,
+                };
                 coarse.extend(own.into_iter().map(|page| (groups.len(), page)));
-                groups.push(group);
+                groups.push(Group { projections, keeps });
             } else {
                 let reason = UnshadowedReason::PoolFull;
                 unshadowed.push(Unshadowed { light: candidate.light, reason });
@@ -78,7 +82,8 @@ impl VirtualPlan {
         let (slots, firsts) = previous.next(&groups);
         let mut lights = vec![ShadowLight::default(); inputs.lights.len()];
         for ((candidate, group), first) in candidates.iter().zip(&groups).zip(&firsts) {
-            lights[candidate.light as usize] = light(inputs, candidate, &range, *first, group.len());
+            lights[candidate.light as usize] =
+                light(inputs, candidate, &range, *first, group.projections.len());
         }
         let coarse = coarse.into_iter().map(|(group, Coarse { face, level, page: [x, y] })| {
             [(firsts[group] + face) as i32, level as i32, x, y]

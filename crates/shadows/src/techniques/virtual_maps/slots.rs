@@ -11,6 +11,14 @@ pub(super) struct Slots {
     versions: u32,
 }
 
+/// The projections of a light, which are next to each other.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Group {
+    pub(super) projections: Vec<Projection>,
+    /// Whether pages of an equal group of the previous frame are kept.
+    pub(super) keeps: bool,
+}
+
 /// A place for a projection.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Slot {
@@ -29,22 +37,22 @@ pub(super) struct Placed {
 }
 
 impl Slots {
-    /// Returns the slots of the next frame, with these projections, and the index of the first of each group: those of a light, which are
-    /// next to each other. Nothing else stays.
-    pub(super) fn next(&self, groups: &[Vec<Projection>]) -> (Self, Vec<u32>) {
+    /// Returns the slots of the next frame, with these projections, and the index of the first of each group. Nothing else stays.
+    pub(super) fn next(&self, groups: &[Group]) -> (Self, Vec<u32>) {
         let mut next = Self { versions: self.versions, slots: self.slots.clone() };
         next.slots.iter_mut().for_each(|slot| slot.used = None);
         let mut firsts = vec![None; groups.len()];
         for (first, group) in firsts.iter_mut().zip(groups) {
-            *first = self.find(group, &next);
+            *first = self.find(&group.projections, &next).filter(|_| group.keeps);
             if let Some(first) = *first {
-                next.slots[first..first + group.len()]
-                    .copy_from_slice(&self.slots[first..first + group.len()]);
+                let range = first..first + group.projections.len();
+                next.slots[range.clone()].copy_from_slice(&self.slots[range]);
             }
         }
         let firsts = firsts.into_iter().zip(groups);
-        let firsts =
-            firsts.map(|(first, group)| first.unwrap_or_else(|| next.insert(group)) as u32).collect();
+        let firsts = firsts
+            .map(|(first, group)| first.unwrap_or_else(|| next.insert(&group.projections)) as u32)
+            .collect();
         (next, firsts)
     }
 
@@ -116,14 +124,16 @@ mod tests {
 
     use crate::spot::{SpotCone, SpotFit};
 
-    fn sun(angle: f64) -> Vec<Projection> {
-        vec![Projection::Directional { light_from_world: DMat3::from_rotation_x(angle) }]
+    fn sun(angle: f64) -> Group {
+        let light_from_world = DMat3::from_rotation_x(angle);
+        Group { projections: vec![Projection::Directional { light_from_world }], keeps: true }
     }
 
-    fn local(x: f64, faces: usize) -> Vec<Projection> {
+    fn local(x: f64, faces: usize) -> Group {
         let position_world = DVec3::X * x;
         let cone = SpotCone { position_world, direction: DVec3::NEG_Z, half_angle: 0.5, range_m: 9.0 };
-        vec![Projection::Local(SpotFit::new(cone, DMat3::IDENTITY, 0.1, 1024, 4.0)); faces]
+        let fit = SpotFit::new(cone, DMat3::IDENTITY, 0.1, 1024, 4.0);
+        Group { projections: vec![Projection::Local(fit); faces], keeps: true }
     }
 
     fn versions(slots: &Slots, first: u32) -> u32 {
@@ -151,6 +161,16 @@ mod tests {
         let (third, at) = second.next(&[local(3.0, 1), local(4.0, 1)]);
         assert_eq!(at, [1, 2]);
         assert_eq!(third.entry_count(), DIRECTIONAL_ENTRIES + 2 * LOCAL_ENTRIES);
+    }
+
+    #[test]
+    fn a_light_whose_pages_are_not_kept_has_another_version_in_each_frame() {
+        let sun = Group { keeps: false, ..sun(0.1) };
+        let (first, _) = Slots::default().next(&[sun.clone(), local(1.0, 1)]);
+        let (second, at) = first.next(&[sun, local(1.0, 1)]);
+        assert_eq!(at, [0, 1]);
+        assert!(versions(&second, 0) > versions(&first, 0));
+        assert_eq!(versions(&second, 1), versions(&first, 1));
     }
 
     #[test]

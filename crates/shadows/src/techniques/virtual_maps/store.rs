@@ -13,12 +13,14 @@ use crate::layered_casters::LayeredCasters;
 
 /// The bytes of a page of depth.
 const PAGE_BYTES: u64 = PAGE_PX as u64 * PAGE_PX as u64 * 4;
-/// Words of a physical page: `PhysicalPage` of `pages_update.wgsl`.
-const PHYSICAL_PAGE_BYTES: u64 = 32;
+/// The size of a physical page: `PhysicalPage` of `pages_update.wgsl`.
+const PHYSICAL_PAGE_BYTES: u64 = 48;
 /// Words before the entries of the table: `PageTable` of `shadows/virtual.wgsl`.
 const TABLE_HEADER_WORDS: u64 = 4;
-/// The most changed boxes: `MAX_CHANGED` of `pages_state.wgsl`.
-pub(super) const MAX_CHANGED: usize = 256;
+/// Bytes of marks for each entry.
+const MARK_BYTES: u64 = 12;
+/// The most boxes of a part of [`Boxes`].
+const MAX_PART: usize = 256;
 
 /// The physical pages of a pool.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -63,7 +65,7 @@ pub(super) struct PageStore {
     pub(super) pool: wgpu::Texture,
     /// `PageTable`.
     pub(super) table: wgpu::Buffer,
-    /// Two words for each entry.
+    /// Three words for each entry.
     pub(super) marks: wgpu::Buffer,
     /// `PhysicalPage`s.
     pub(super) pages: wgpu::Buffer,
@@ -112,7 +114,7 @@ impl PageStore {
             size,
             pool,
             table: buffer("page table", 4 * (TABLE_HEADER_WORDS + entries)),
-            marks: buffer("page marks", 8 * entries),
+            marks: buffer("page marks", MARK_BYTES * entries),
             pages: buffer("physical pages", PHYSICAL_PAGE_BYTES * pages),
             depths: buffer("page depths", PAGE_BYTES * pages),
             entry_count,
@@ -130,23 +132,28 @@ impl PageStore {
     }
 }
 
-/// The casters that have changed since a frame.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) enum Changes {
-    /// They are within these bounds.
-    Within(Vec<Aabb>),
-    /// They may be anywhere.
-    Anywhere,
+/// Bounds of casters that decide which pages are drawn.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Boxes {
+    /// Static casters that have changed since the previous frame, before and after; `None`: they may be anywhere.
+    pub(super) changed: Option<Vec<Aabb>>,
+    /// Moving casters that have moved, before and after.
+    pub(super) moved: Vec<Aabb>,
+    /// All moving casters.
+    pub(super) movers: Vec<Aabb>,
 }
 
+/// The most boxes of a frame.
+pub(super) const MAX_BOXES: usize = 3 * MAX_PART;
+
 impl StoreState {
-    /// Returns what a frame with these casters leaves, and what has changed before it.
+    /// Returns what a frame with these casters leaves, and its boxes.
     pub(super) fn next(
         &self,
         casters: (&dyn ShadowCasters, &dyn LayeredCasters),
         origin_world: DVec3,
         slots: Slots,
-    ) -> (Self, Changes) {
+    ) -> (Self, Boxes) {
         let (all, layered) = casters;
         let mut numbers = Vec::new();
         layered.all_moving(&mut numbers);
@@ -159,36 +166,53 @@ impl StoreState {
             static_version: layered.static_version(),
             moving,
         };
-        let changes = if self.frame == 0 || self.origin_world != origin_world {
-            Changes::Anywhere
-        } else {
-            self.changes(&next, layered)
+        let mut changed = Vec::new();
+        let is_known = self.frame > 0
+            && self.origin_world == origin_world
+            && layered.static_changes(self.static_version, &mut changed);
+        let movers = next.moving.values().map(|(_, bounds)| *bounds).collect();
+        let boxes = Boxes {
+            changed: is_known.then(|| merged(changed)),
+            moved: merged(self.moved(&next)),
+            movers: merged(movers),
         };
-        (next, changes)
+        (next, boxes)
     }
 
-    fn changes(&self, next: &Self, layered: &dyn LayeredCasters) -> Changes {
-        let mut bounds = Vec::new();
-        if !layered.static_changes(self.static_version, &mut bounds) {
-            return Changes::Anywhere;
-        }
+    /// Returns the bounds of moving casters, before and after, that do not stand since this frame.
+    fn moved(&self, next: &Self) -> Vec<Aabb> {
         let stands =
             |states: &BTreeMap<_, (Option<u64>, Aabb)>, caster: &u32, state: &(Option<u64>, Aabb)| {
                 state.0.is_some() && states.get(caster) == Some(state)
             };
         let before = self.moving.iter().filter(|(caster, state)| !stands(&next.moving, caster, state));
         let after = next.moving.iter().filter(|(caster, state)| !stands(&self.moving, caster, state));
-        bounds.extend(before.chain(after).map(|(_, (_, bounds))| *bounds));
-        bounds.retain(|bounds| !bounds.is_empty());
-        if bounds.len() > MAX_CHANGED { Changes::Within(merged(bounds)) } else { Changes::Within(bounds) }
+        before.chain(after).map(|(_, (_, bounds))| *bounds).collect()
     }
 }
 
-/// Returns at most [`MAX_CHANGED`] boxes that contain all others.
-fn merged(bounds: Vec<Aabb>) -> Vec<Aabb> {
-    let per_box = bounds.len().div_ceil(MAX_CHANGED);
+/// Returns at most [`MAX_PART`] boxes that contain all others: neighbours are merged.
+fn merged(mut bounds: Vec<Aabb>) -> Vec<Aabb> {
+    bounds.retain(|bounds| !bounds.is_empty());
+    if bounds.len() <= MAX_PART {
+        return bounds;
+    }
     let union = |part: &[Aabb]| part.iter().fold(Aabb::EMPTY, |all, bounds| all.union(bounds));
-    bounds.chunks(per_box).map(union).collect()
+    let all = union(&bounds);
+    bounds.sort_by_key(|bounds| cell_order(&all, bounds.center()));
+    bounds.chunks(bounds.len().div_ceil(MAX_PART)).map(union).collect()
+}
+
+/// Returns the place of a point on a curve through the cells of a grid, on which neighbours are near to each other (Morton order).
+fn cell_order(all: &Aabb, point: DVec3) -> u32 {
+    const BITS: u32 = 10;
+    let size = (all.max - all.min).max(DVec3::splat(f64::MIN_POSITIVE));
+    let cells = ((point - all.min) / size * f64::from((1 << BITS) - 1)).as_uvec3();
+    let bit = |cell: u32, bit: u32| (cell >> bit) & 1;
+    (0..BITS).fold(0, |code, index| {
+        let bits = cells.to_array().map(|cell| bit(cell, index));
+        code | (bits[0] | bits[1] << 1 | bits[2] << 2) << (3 * index)
+    })
 }
 
 /// The stores of views.
@@ -222,6 +246,23 @@ impl Stores {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn many_boxes_are_merged_with_their_neighbours() {
+        let cube = |index: u32| {
+            let corner = DVec3::new(f64::from(index % 40), 0.0, f64::from(index / 40)) * 10.0;
+            Aabb { min: corner, max: corner + 1.0 }
+        };
+        let few: Vec<_> = (0..256).map(cube).collect();
+        assert_eq!(merged(few.clone()), few);
+        let many: Vec<_> = (0..1600).map(|index| cube(index * 7 % 1600)).chain([Aabb::EMPTY]).collect();
+        let boxes = merged(many.clone());
+        assert!(boxes.len() <= MAX_PART);
+        let contains = |outer: &Aabb, inner: &Aabb| outer.union(inner) == *outer;
+        assert!(many.iter().all(|cube| boxes.iter().any(|merged| contains(merged, cube))));
+        let area = |bounds: &Aabb| (bounds.max.x - bounds.min.x) * (bounds.max.z - bounds.min.z);
+        assert!(boxes.iter().map(area).sum::<f64>() < 400.0 * 400.0 * 1.5);
+    }
 
     #[test]
     fn a_pool_has_sides_that_are_powers_of_two_and_is_within_the_limits() {
