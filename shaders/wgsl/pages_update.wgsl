@@ -10,7 +10,7 @@
 // A page has a static physical page, with the casters that stand, and where casters move also a composite one, with all of them. A composite
 // page is drawn again for each movement, and its static page stays as it is.
 #import shadowgraph::shadows::pages::{
-    BORDER_TEXELS, IS_LAYER, Level, PAGE_PX, PAGE_TEXELS, Page, PageTable, Projection, entry_of, has_entry, parent_of,
+    BORDER_TEXELS, IS_LAYER, Level, PAGE_DRAWN, PAGE_PX, PAGE_TEXELS, Page, PageTable, Projection, entry_of, has_entry, parent_of,
 }
 #import shadowgraph::layer_views::{CASTERS_MOVING, CASTERS_STATIC, LayerViews}
 #import shadowgraph::pages_state::{
@@ -110,9 +110,9 @@ fn set_resident(entry: u32, kind: u32, place: u32) {
     atomicOr(&marks[words_of(entry) + 2u], (place + 1u) << (16u * kind));
 }
 
-// Shows a page to lookups of this frame.
-fn show(entry: u32, place: u32) {
-    page_table.entries[entry] = (frame_stamp() << 16u) | (place + 1u);
+// Shows a page to lookups of this frame. The state is PAGE_DRAWN or 0.
+fn show(entry: u32, place: u32, state: u32) {
+    page_table.entries[entry] = (frame_stamp() << 16u) | state | (place + 1u);
 }
 
 fn free(index: u32) {
@@ -265,7 +265,7 @@ fn show_resident(local: u32) {
             }
             physical_pages[place - 1u].last_frame = pages_frame.frame;
             if kind == needed.has_movers {
-                show(needed.entry, place - 1u);
+                show(needed.entry, place - 1u, 0u);
             }
         }
     }
@@ -358,7 +358,7 @@ fn give_place(needed: ListedPage, kind: u32, rank: u32) {
         PhysicalPage(needed.page, version, level.exponent, frame, needed.entry, kind, frame, rank);
     set_resident(needed.entry, kind, place);
     if kind == needed.has_movers {
-        show(needed.entry, place);
+        show(needed.entry, place, PAGE_DRAWN);
     }
     page_views.views[rank].clip_from_world = clip_from_world(needed.page);
     let texel = (needed.page.place + level.base) * i32(PAGE_TEXELS) - i32(BORDER_TEXELS);

@@ -81,9 +81,13 @@ struct PageTable {
     pool_columns: u32,
     // Added to levels: coarser above 0, finer below.
     level_bias: f32,
-    // For each page the stamp of the last frame that needed it, in the upper half, and its place in the pool plus 1.
+    // For each page the stamp of the last frame that needed it, in the upper half, PAGE_DRAWN if that has drawn it, and its place in the pool
+    // plus 1.
     entries: array<u32>,
 }
+
+const PAGE_DRAWN: u32 = 0x8000u;
+const PAGE_PLACE: u32 = 0x7fffu;
 
 // The entry of a page in the table.
 fn entry_of(projection: Projection, level: Level, place: vec2i) -> u32 {

@@ -9,7 +9,7 @@
 #import shadowgraph::shadows::lookup::{Lookup, incidence_in, look_up}
 #import shadowgraph::shadows::maps::read_page
 #import shadowgraph::shadows::pages::{
-    BLEND_PART, BORDER_TEXELS, COARSENING_STEPS, Level, Page, PAGE_PX, PAGE_TEXELS, PageTable, Projection, biased, entry_of, has_entry,
+    BLEND_PART, BORDER_TEXELS, COARSENING_STEPS, Level, Page, PAGE_DRAWN, PAGE_PLACE, PAGE_PX, PAGE_TEXELS, PageTable, Projection, biased, entry_of, has_entry,
     in_level, page_of, place_texel, project, wanted_level,
 }
 #import shadowgraph::shadows::types::{NOT_A_CASCADE, ShadowLight, ShadowView}
@@ -26,6 +26,8 @@ struct Found {
     page: Page,
     place_px: vec2f,
     exists: bool,
+    // Whether this frame has drawn it.
+    is_drawn: bool,
 }
 
 fn light_shadow(light: u32) -> ShadowLight {
@@ -47,9 +49,9 @@ fn find_page(index: u32, projection: Projection, shadow: ShadowLight, receiver: 
             continue;
         }
         let entry = page_table.entries[entry_of(projection, level, place)];
-        if entry >> 16u == page_table.stamp && (entry & 0xffffu) != 0u {
-            let texel = place_texel((entry & 0xffffu) - 1u, page_table.pool_columns);
-            found = Found(Page(index, number, place), vec2f(texel), true);
+        if entry >> 16u == page_table.stamp && (entry & PAGE_PLACE) != 0u {
+            let texel = place_texel((entry & PAGE_PLACE) - 1u, page_table.pool_columns);
+            found = Found(Page(index, number, place), vec2f(texel), true, (entry & PAGE_DRAWN) != 0u);
             break;
         }
     }
@@ -157,7 +159,8 @@ fn shadow_visibility(light: u32, receiver: Receiver) -> vec3f {
     return vec3f(mix(1.0, visibility, strength));
 }
 
-// The colour of the level that is read, in a checkerboard of its pages; white without shadows.
+// The colour of the level that is read, in a checkerboard of its pages; darker where the page is kept from an earlier frame. White without
+// shadows.
 fn shadow_debug_color(light: u32, receiver: Receiver) -> vec3f {
     let shadow = light_shadow(light);
     let strength = strength_at(shadow, receiver);
@@ -172,5 +175,5 @@ fn shadow_debug_color(light: u32, receiver: Receiver) -> vec3f {
     }
     let is_odd = ((found.page.place.x + found.page.place.y) & 1) == 1;
     let exponent = levels[projection.first_level + found.page.level].exponent;
-    return cascade_tint(u32(exponent & 3)) * select(1.0, 0.7, is_odd);
+    return cascade_tint(u32(exponent & 3)) * select(1.0, 0.75, is_odd) * select(0.45, 1.0, found.is_drawn);
 }

@@ -15,8 +15,11 @@ pub enum Aov {
     /// The visibility of a light by index: 8 bit grey (255 lit, 0 in shadow) and alpha (0 where nothing is drawn or the
     /// surface faces away from the light).
     Visibility(u32),
-    /// The cascade of each pixel.
+    /// The cascade of each pixel, or what else of the technique's maps it reads.
     Cascade,
+    /// The level and the page of `virtual` that each pixel reads, darker where the page is kept from an earlier frame. Other techniques show
+    /// [`Cascade`](Self::Cascade).
+    Pages,
     /// The depth.
     Depth,
     /// The shading normal.
@@ -29,7 +32,8 @@ pub enum Aov {
 
 impl Aov {
     /// The names that are not textures of the graph.
-    pub(crate) const NAMES: [&str; 6] = ["color", "visibility:0", "cascade", "depth", "normal", "atlas"];
+    pub(crate) const NAMES: [&str; 7] =
+        ["color", "visibility:0", "cascade", "pages", "depth", "normal", "atlas"];
 }
 
 impl fmt::Display for Aov {
@@ -38,6 +42,7 @@ impl fmt::Display for Aov {
             Self::Color => f.write_str("color"),
             Self::Visibility(light) => write!(f, "visibility:{light}"),
             Self::Cascade => f.write_str("cascade"),
+            Self::Pages => f.write_str("pages"),
             Self::Depth => f.write_str("depth"),
             Self::Normal => f.write_str("normal"),
             Self::Atlas => f.write_str("atlas"),
@@ -67,6 +72,7 @@ impl FromStr for Aov {
             "" => return Err(OptionError::new(OPTION, "empty value; the default is color")),
             "color" => Self::Color,
             "cascade" => Self::Cascade,
+            "pages" => Self::Pages,
             "depth" => Self::Depth,
             "normal" => Self::Normal,
             "atlas" => Self::Atlas,
@@ -86,6 +92,7 @@ mod tests {
             "color",
             "visibility:3",
             "cascade",
+            "pages",
             "depth",
             "normal",
             "atlas",

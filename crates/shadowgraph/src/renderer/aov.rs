@@ -59,7 +59,7 @@ impl Renderer {
         let buffers = || output.view.as_ref().ok_or_else(|| missing("view"));
         match &self.aov {
             Aov::Color => Ok(output.image.clone()),
-            Aov::Visibility(_) | Aov::Cascade | Aov::Normal => {
+            Aov::Visibility(_) | Aov::Cascade | Aov::Pages | Aov::Normal => {
                 output.light.clone().ok_or_else(|| missing("light"))
             }
             Aov::Depth => {
@@ -122,7 +122,7 @@ pub(super) fn lit_output(aov: &Aov, lights: &[Light]) -> Result<(LitOutput, Form
             return Err(Error::UnknownLight { light: *light, lights });
         }
         Aov::Visibility(light) => (LitOutput::Visibility(*light), Format::Rgba8Unorm),
-        Aov::Cascade => (LitOutput::Debug, Format::Rgba8Unorm),
+        Aov::Cascade | Aov::Pages => (LitOutput::Debug, Format::Rgba8Unorm),
         Aov::Normal => (LitOutput::Normal, Format::Rgba8Unorm),
         Aov::Color | Aov::Depth | Aov::Atlas | Aov::Texture(_) => (LitOutput::Light, Format::Rgba16Float),
     })

@@ -66,7 +66,7 @@ impl VirtualMaps {
 
     /// Returns the output of a frame in which no light has shadows.
     fn all_lit<'f>(&'f self, frame: &mut Frame<'f>, plan: &VirtualPlan) -> ShadowOutputs<'f> {
-        let pool = frame.import_texture("no page pool", &self.no_pool, true);
+        let pool = frame.import_texture("pool", &self.no_pool, true);
         let nothing = || ShadowBinding::ExternalBuffer(&self.nothing);
         self.outputs([nothing(), nothing(), nothing(), nothing()], pool, plan)
     }

@@ -153,7 +153,7 @@ impl Passes {
         draw(frame, casters, &drawn, &steps.views, &mut depths);
         let [width, height] = store.size.size_px;
         let size = frame.uniform(bytemuck::cast_slice(&[width, height, store.size.columns, 0]));
-        let mut pool = frame.import_texture("page pool", &store.pool, true);
+        let mut pool = frame.import_texture("pool", &store.pool, true);
         self.combine(frame, &steps, (&pool, size), &mut depths);
         self.store(frame, &steps, (&mut pool, size), &mut depths);
         let Steps { projections, levels, lights, table, counters, .. } = steps;
