@@ -28,3 +28,4 @@ mod techniques;
 mod tints;
 mod trails;
 mod velocity;
+mod virtual_maps;

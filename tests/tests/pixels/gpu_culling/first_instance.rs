@@ -46,7 +46,7 @@ fn images_are_those_of_culling_on_the_cpu_without_indirect_first_instance() {
                 let (key, _) = renderer.scene().instances().nth(7).unwrap();
                 renderer.scene_mut().move_instance(key, moved).unwrap();
                 let drawn = renderer.draw(gpu, &options).unwrap();
-                assert_eq!(drawn.culled.is_empty(), !renderer.casters().culls_on_gpu());
+                assert_eq!(drawn.counts.culled.is_empty(), !renderer.casters().culls_on_gpu());
                 drawn.image
             });
             assert!(by_cpu.rgba8 == by_gpu.rgba8, "{samples} samples, frame {frame}");

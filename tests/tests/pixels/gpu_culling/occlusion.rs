@@ -16,7 +16,7 @@ fn in_a_street_at_least_half_of_the_instances_in_view_are_not_drawn() {
     let mut renderer = Renderer::with_config(gpu, scene, &camera, Aov::Color, config).unwrap();
     let options = ViewOptions { camera, size_px: [160, 90], shadows: Default::default() };
     let count = |renderer: &mut Renderer, name: &str| {
-        let culled = renderer.draw(gpu, &options).unwrap().culled;
+        let culled = renderer.draw(gpu, &options).unwrap().counts.culled;
         culled.into_iter().find(|culled| culled.view == name).unwrap().instances as usize
     };
     // In the first frame, nothing has been seen before.
