@@ -86,6 +86,9 @@ pub const VIRTUAL: ModuleSource = file!("shadows/virtual.wgsl");
 /// The pool of pages of [`VIRTUAL`]; it replaces the built-in module of the maps of cascades and the atlas.
 pub const PAGE_POOL: ModuleSource = file!("shadows/page_pool.wgsl");
 
+/// The filter radii of [`VIRTUAL`] for lights with penumbrae; it replaces the built-in module of constant radii.
+pub const PAGE_PENUMBRA: ModuleSource = file!("shadows/page_penumbra.wgsl");
+
 /// The filter of the technique `pcf`. Its sampler is binding 10.
 pub const PCF_FILTER: ModuleSource = file!("shadows/pcf.wgsl");
 
@@ -125,6 +128,8 @@ pub(crate) const MODULES: &[ModuleSource] = &[
     file!("shadows/linear_depth.wgsl"),
     file!("shadows/lookup.wgsl"),
     file!("shadows/maps.wgsl"),
+    file!("shadows/page_filter.wgsl"),
+    file!("shadows/page_lookup.wgsl"),
     file!("shadows/pages.wgsl"),
     PCF_FILTER,
     file!("shadows/raytraced_settings.wgsl"),

@@ -166,8 +166,13 @@ fn cs_list(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) gr
         let quarters = atomicExchange(&marks[words_of(entry)], 0u);
         var page = lists[index].page;
         let last = projections[page.projection].level_count - 1u;
-        for (var coarser = 0; coarser <= i32(COARSER_LEVELS); coarser++) {
-            var bits = 0u;
+        let soft_level = projections[page.projection].soft_level;
+        let coarsest = max(page.level + COARSER_LEVELS, soft_level);
+        let finest = page.level;
+        while page.level <= coarsest {
+            let coarser = i32(page.level - finest);
+            // Penumbrae are read from all levels up to this.
+            var bits = select(0u, between(0, 4 * coarser + 1), page.level > finest && page.level <= soft_level);
             for (var quarter = 0; quarter < 4; quarter++) {
                 if (quarters & (1u << u32(quarter))) != 0u {
                     // A level is also blended with the finer one, in the last quarter of that.

@@ -13,7 +13,7 @@ const BLEND_PART: f32 = 0.25;
 // Steps of a level in which all levels are coarsened while the pool is too small.
 const COARSENING_STEPS: f32 = 4.0;
 
-// A projection of a light: that of a directional or of a spot light, or a face of a point light. 160 bytes.
+// A projection of a light: that of a directional or of a spot light, or a face of a point light. 176 bytes.
 struct Projection {
     // Rows of the matrix from positions to x (right) and y (down), in texels of level 0, depth, and w, by which they are divided.
     x: vec4f,
@@ -41,6 +41,12 @@ struct Projection {
     first_entry: u32,
     // Changes with the light: pages of another version are stale. 0: the projection is unused.
     version: u32,
+    // For penumbrae: the tangent of the angular radius of a directional light, or the radius of others, metres; the largest radius of
+    // penumbrae, metres; and the coarsest level that they are read from besides those that pixels ask for.
+    light_radius: f32,
+    max_radius_m: f32,
+    soft_level: u32,
+    padding: u32,
 }
 
 // A level of a map. Page 0 of a directional light contains the frame's origin; that of others is at the top left. 48 bytes.

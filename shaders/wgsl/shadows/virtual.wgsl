@@ -6,104 +6,25 @@
 #import shadowgraph::shadows::cube::cube_face
 #import shadowgraph::shadows::crease::is_behind_crease
 #import shadowgraph::shadows::filter::filtered
-#import shadowgraph::shadows::lookup::{Lookup, incidence_in, look_up}
-#import shadowgraph::shadows::maps::read_page
-#import shadowgraph::shadows::pages::{
-    BLEND_PART, BORDER_TEXELS, COARSENING_STEPS, Level, Page, PAGE_DRAWN, PAGE_PLACE, PAGE_PX, PAGE_TEXELS, PageTable, Projection, biased, entry_of, has_entry,
-    in_level, page_of, place_texel, project, wanted_level,
+#import shadowgraph::shadows::page_lookup::{
+    Found, find_page, levels, light_shadow, look_up_page, page_table, projections,
 }
-#import shadowgraph::shadows::types::{NOT_A_CASCADE, ShadowLight, ShadowView}
+#import shadowgraph::shadows::page_filter::{MAX_HALF, Softness, softness}
+#import shadowgraph::shadows::pages::{BLEND_PART, COARSENING_STEPS, Projection, project, wanted_level}
+#import shadowgraph::shadows::types::ShadowLight
 #import shadowgraph::shadows::variant::DIRECTIONAL
 #import shadowgraph::view::pixels_per_metre
 
-@group(1) @binding(0) var<storage, read> projections: array<Projection>;
-@group(1) @binding(1) var<storage, read> levels: array<Level>;
-@group(1) @binding(2) var<storage, read> shadow_lights: array<ShadowLight>;
-@group(1) @binding(3) var<storage, read> page_table: PageTable;
-
-// A page that the frame has, or none.
-struct Found {
-    page: Page,
-    place_px: vec2f,
-    exists: bool,
-    // Whether this frame has drawn it.
-    is_drawn: bool,
-}
-
-fn light_shadow(light: u32) -> ShadowLight {
-    var shadow = shadow_lights[light];
-    if light >= arrayLength(&shadow_lights) {
-        shadow.view_count = 0u;
-    }
-    return shadow;
-}
-
-// The page of a point in a level, or in the finest coarser level that has one.
-fn find_page(index: u32, projection: Projection, shadow: ShadowLight, receiver: Receiver, finest: u32) -> Found {
-    var found: Found;
-    for (var number = finest; number < projection.level_count; number++) {
-        let level = levels[projection.first_level + number];
-        let moved = biased(projection, shadow, number, receiver.position, receiver.geometric_normal);
-        let place = page_of(in_level(project(projection, moved), number, level));
-        if !has_entry(level, place) {
-            continue;
-        }
-        let entry = page_table.entries[entry_of(projection, level, place)];
-        if entry >> 16u == page_table.stamp && (entry & PAGE_PLACE) != 0u {
-            let texel = place_texel((entry & PAGE_PLACE) - 1u, page_table.pool_columns);
-            found = Found(Page(index, number, place), vec2f(texel), true, (entry & PAGE_DRAWN) != 0u);
-            break;
-        }
-    }
-    return found;
-}
-
-// The view of a page, as lookups expect it.
-fn view_of(projection: Projection, found: Found) -> ShadowView {
-    let number = found.page.level;
-    let level = levels[projection.first_level + number];
-    let page_px = f32(PAGE_PX);
-    let scale = ldexp(1.0, -i32(number));
-    // From texels of the level to those of the page with its border.
-    let offset = level.phase + BORDER_TEXELS - PAGE_TEXELS * vec2f(found.page.place);
-    let depth = projection.z * level.depth_scale + projection.w * level.depth_offset;
-    let across = (projection.x * scale + projection.w * offset.x) / page_px;
-    let down = (projection.y * scale + projection.w * offset.y) / page_px;
-    var result: ShadowView;
-    result.map_from_world = transpose(mat4x4f(across, down, depth, projection.w));
-    // Of this, the directions of the axes are read.
-    result.clip_from_world = transpose(
-        mat4x4f(vec4f(projection.right, 0.0), vec4f(-projection.down, 0.0), depth, projection.w),
-    );
-    result.axis_scale = 1.0;
-    result.texel_scale = vec2f(1.0);
-    result.texel_world = projection.texel_m / scale;
-    result.depth_per_texel = projection.depth_per_texel * level.depth_scale / scale;
-    result.light = vec4f(projection.to_light, 0.0);
-    if !DIRECTIONAL && projection.is_perspective == 1u {
-        result.light = vec4f(projection.center, 1.0);
-    }
-    result.uv_min = vec2f((BORDER_TEXELS - 1.0) / page_px);
-    result.uv_max = vec2f((BORDER_TEXELS + PAGE_TEXELS + 1.0) / page_px);
-    result.bias_scale = 1.0;
-    result.depth_step = level.depth_step;
-    result.cascade = NOT_A_CASCADE;
-    return result;
-}
-
 // Lit where there is no page.
-fn page_visibility(projection: Projection, shadow: ShadowLight, receiver: Receiver, found: Found) -> f32 {
-    if !found.exists {
-        return 1.0;
-    }
-    read_page(found.place_px);
-    let shadow_view = view_of(projection, found);
-    let lookup = look_up(shadow_view, shadow, receiver, incidence_in(shadow_view, shadow, receiver));
+fn page_visibility(shadow: ShadowLight, receiver: Receiver, radius: f32, found: Found) -> f32 {
+    let lookup = look_up_page(shadow, receiver, found);
     if !lookup.covered {
         return 1.0;
     }
-    let visibility = filtered(shadow, receiver, lookup);
-    if visibility > 0.0 && is_behind_crease(shadow, lookup, shadow.filter_half) {
+    var light = shadow;
+    light.filter_half = clamp(ldexp(radius, -i32(found.page.level)), shadow.filter_half, max(MAX_HALF, shadow.filter_half));
+    let visibility = filtered(light, receiver, lookup);
+    if visibility > 0.0 && is_behind_crease(light, lookup, light.filter_half) {
         return 0.0;
     }
     return visibility;
@@ -139,20 +60,21 @@ fn shadow_visibility(light: u32, receiver: Receiver) -> vec3f {
     }
     let index = shadow.first_view + face_of(shadow, receiver);
     let projection = projections[index];
-    let wanted = level_at(projection, receiver);
+    let soft = softness(index, shadow, receiver, level_at(projection, receiver));
+    let wanted = soft.level;
     let finest = u32(wanted);
-    var found = find_page(index, projection, shadow, receiver, finest);
+    var found = find_page(index, shadow, receiver, finest);
     // Near the end of its range, a level is blended with the next.
     let blends = found.exists && found.page.level == finest;
     var weight = 1.0 - select(0.0, saturate((fract(wanted) - (1.0 - BLEND_PART)) / BLEND_PART), blends);
     var visibility = 0.0;
     var is_last = weight == 1.0;
     loop {
-        visibility += weight * page_visibility(projection, shadow, receiver, found);
+        visibility += weight * page_visibility(shadow, receiver, soft.radius, found);
         if is_last {
             break;
         }
-        found = find_page(index, projection, shadow, receiver, finest + 1u);
+        found = find_page(index, shadow, receiver, finest + 1u);
         weight = 1.0 - weight;
         is_last = true;
     }
@@ -169,7 +91,7 @@ fn shadow_debug_color(light: u32, receiver: Receiver) -> vec3f {
     }
     let index = shadow.first_view + face_of(shadow, receiver);
     let projection = projections[index];
-    let found = find_page(index, projection, shadow, receiver, u32(level_at(projection, receiver)));
+    let found = find_page(index, shadow, receiver, u32(level_at(projection, receiver)));
     if !found.exists {
         return vec3f(1.0);
     }

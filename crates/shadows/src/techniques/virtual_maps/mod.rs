@@ -18,7 +18,7 @@ mod variant;
 pub use settings::VirtualSettings;
 
 use shadowgraph_core::{Frame, Texture};
-use shadowgraph_shaders::{ModuleSource, PAGE_POOL, PCF_FILTER, VIRTUAL};
+use shadowgraph_shaders::{ModuleSource, PAGE_PENUMBRA, PAGE_POOL, PCF_FILTER, VIRTUAL};
 
 use crate::error::Error;
 use crate::maps::{comparison_sampler, texel};
@@ -113,7 +113,12 @@ impl ShadowTechnique for VirtualMaps {
 
     fn modules(&self, variant: u32) -> Vec<ModuleSource> {
         let filter = PCF_FILTER.source.replace("@binding(10)", "@binding(5)");
-        vec![VIRTUAL, PAGE_POOL, ModuleSource::new(PCF_FILTER.file, filter), Variant::module(variant)]
+        let mut modules =
+            vec![VIRTUAL, PAGE_POOL, ModuleSource::new(PCF_FILTER.file, filter), Variant::module(variant)];
+        if Variant::has_penumbrae(variant) {
+            modules.push(PAGE_PENUMBRA);
+        }
+        modules
     }
 
     fn binding_types(&self) -> Vec<wgpu::BindingType> {
@@ -138,7 +143,7 @@ impl ShadowTechnique for VirtualMaps {
             })?;
         let previous = self.stores.previous(inputs.view);
         let known = previous.map_or_else(Default::default, |store| store.known().clone());
-        let plan = VirtualPlan::new(inputs, &known.slots, size.pages, buffers.size_px[1])?;
+        let plan = VirtualPlan::new(inputs, &settings, &known.slots, size.pages, buffers.size_px[1])?;
         if plan.is_empty() {
             return Ok(self.all_lit(frame, &plan));
         }

@@ -7,6 +7,7 @@ use super::projections::{
     DIRECTIONAL_LEVELS, DirectionalLevel, GpuLevel, GpuProjection, LOCAL_LEVELS, LOCAL_TEXELS, PAGE_PX,
     Projection, Viewpoint, local_levels, map_position,
 };
+use super::settings::VirtualSettings;
 use super::slots::{Group, Slots};
 use crate::error::Error;
 use crate::light_params::LightShadowParams;
@@ -14,6 +15,7 @@ use crate::plan::ShadowInputs;
 use crate::planner::{ShadowedLights, shadowed_lights};
 use crate::select::{Candidate, ShadowRange, Shape, Unshadowed, UnshadowedReason, point_face};
 use crate::spot::SpotFit;
+use crate::techniques::PcssSettings;
 use crate::views::{MAP_ATLAS, ShadowLight};
 
 /// The most pages that are always needed: `MAX_COARSE` of `pages_state.wgsl`.
@@ -22,8 +24,33 @@ pub(super) const MAX_COARSE: usize = 512;
 const COARSE_PART: u32 = 16;
 /// Their least number for a directional light: four pages contain any view.
 const MIN_COARSE: u32 = 4;
+/// Taps of the filter of penumbrae along each axis.
+pub(super) const PENUMBRA_TAPS: u32 = 4;
+/// The radius of the search for blockers: `SEARCH_TEXELS` of `page_penumbra.wgsl`.
+const SEARCH_TEXELS: f32 = 3.0;
 /// Texels between the cone of a spot light, or the edge of a face, and the edge of the map.
 const LOCAL_MARGIN_TEXELS: f64 = 8.0;
+
+/// Lights with penumbrae.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Penumbrae {
+    /// The tangent of the angular radius of directional lights.
+    sun_tangent: f32,
+    /// The radius of other lights.
+    light_radius_m: f32,
+    /// The largest radius of penumbrae.
+    max_radius_m: f32,
+}
+
+impl Penumbrae {
+    fn new(own: &VirtualSettings, lights: &PcssSettings) -> Option<Self> {
+        own.penumbrae.then(|| Self {
+            sun_tangent: lights.sun_radius_rad.tan(),
+            light_radius_m: lights.light_radius_m,
+            max_radius_m: own.max_penumbra_m,
+        })
+    }
+}
 
 /// A frame's virtual shadow maps.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,6 +74,7 @@ impl VirtualPlan {
     /// For settings or a camera that are out of range.
     pub(super) fn new(
         inputs: &ShadowInputs<'_>,
+        own: &VirtualSettings,
         previous: &Slots,
         page_count: u32,
         height_px: u32,
@@ -88,7 +116,12 @@ impl VirtualPlan {
         let coarse = coarse.into_iter().map(|(group, Coarse { face, level, page: [x, y] })| {
             [(firsts[group] + face) as i32, level as i32, x, y]
         });
-        let (projections, levels) = gpu_projections(&slots, &viewpoint);
+        let penumbrae = Penumbrae::new(own, &inputs.settings.techniques.get()?);
+        let (mut projections, levels) = gpu_projections(&slots, &viewpoint);
+        if let Some(penumbrae) = &penumbrae {
+            projections.iter_mut().for_each(|projection| soften(projection, penumbrae));
+            lights.iter_mut().for_each(|light| light.filter_taps = PENUMBRA_TAPS);
+        }
         let coarse = coarse.collect();
         let main_light = candidates.first().map_or(0, |candidate| candidate.light);
         Ok(Self { projections, levels, lights, coarse, unshadowed, slots, main_light })
@@ -205,6 +238,19 @@ fn light(
     let eye = (range.camera.position_world() - inputs.origin_world).as_vec3().to_array();
     let texel_uv = [1.0 / PAGE_PX as f32; 2];
     ShadowLight { map: MAP_ATLAS, first_view: first, view_count: count as u32, eye, texel_uv, ..light }
+}
+
+/// Gives a projection what penumbrae depend on.
+fn soften(projection: &mut GpuProjection, penumbrae: &Penumbrae) {
+    projection.max_radius_m = penumbrae.max_radius_m;
+    let last = projection.level_count.saturating_sub(1);
+    (projection.light_radius, projection.soft_level) = if projection.is_perspective == 1 {
+        (penumbrae.light_radius_m, last)
+    } else {
+        let levels = (penumbrae.max_radius_m / (SEARCH_TEXELS * projection.texel_m)).log2().ceil();
+        // The coarser one of two levels that are blended.
+        (penumbrae.sun_tangent, (levels.max(0.0) as u32 + 1).min(last))
+    };
 }
 
 /// Returns the projections and levels that shaders read.

@@ -63,6 +63,10 @@ pub(super) struct GpuProjection {
     pub(super) level_count: u32,
     pub(super) first_entry: u32,
     pub(super) version: u32,
+    pub(super) light_radius: f32,
+    pub(super) max_radius_m: f32,
+    pub(super) soft_level: u32,
+    pub(super) padding: u32,
 }
 
 /// `Level` of `shadows/pages.wgsl`.
@@ -118,7 +122,7 @@ impl Projection {
         }
     }
 
-    /// Returns what shaders read; entries, levels and the version are left to the caller.
+    /// Returns what shaders read; entries, levels, the version and penumbrae are left to the caller.
     pub(super) fn gpu(&self, viewpoint: &Viewpoint) -> GpuProjection {
         match self {
             Self::Directional { light_from_world } => directional(light_from_world, viewpoint),
@@ -257,7 +261,7 @@ mod tests {
         let module = shadowgraph_shaders::compose("pages_mark.wgsl", &[]).unwrap();
         shadowgraph_shaders::check_layout!(&module, "Projection", GpuProjection:
             x, y, z, w, center, range_m, right, texel_m, down, depth_per_texel, to_light, is_perspective, first_level, level_count,
-            first_entry, version,
+            first_entry, version, light_radius, max_radius_m, soft_level, padding,
         )
         .unwrap();
         shadowgraph_shaders::check_layout!(&module, "Level", GpuLevel:

@@ -11,6 +11,10 @@ declare_settings! {
         /// Levels by which maps are coarser (above 0) or finer (below 0) than pixels: with -1, texels are at most half as wide as the pixels that
         /// they are read from.
         level_bias: f32 = -1.0, -2..=4, in "levels";
+        /// Penumbrae widen with the distance to the blocker, for lights with the radii of the settings of `pcss`.
+        penumbrae: bool = false;
+        /// Maximum radius of penumbrae.
+        max_penumbra_m: f32 = 1.0, 0.01..=10, in "metres";
     }
 }
 

@@ -2,6 +2,7 @@
 
 use shadowgraph_shaders::ModuleSource;
 
+use super::plan::PENUMBRA_TAPS;
 use super::projections::GpuProjection;
 use crate::views::{BIAS_PLANE, ShadowLight};
 
@@ -12,25 +13,34 @@ pub(super) struct Variant {
     directional: bool,
     /// All have the default bias and the default filter.
     usual: bool,
+    /// They have penumbrae.
+    soft: bool,
 }
 
-/// The taps of the default filter.
-const USUAL_TAPS: u32 = 3;
+/// Returns the taps of the default filter.
+fn usual_taps(soft: bool) -> u32 {
+    if soft { PENUMBRA_TAPS } else { 3 }
+}
 
 impl Variant {
     /// All variants, by index.
-    pub(super) const ALL: [Self; 4] = [
-        Self { directional: false, usual: false },
-        Self { directional: false, usual: true },
-        Self { directional: true, usual: false },
-        Self { directional: true, usual: true },
+    pub(super) const ALL: [Self; 8] = [
+        Self { directional: false, usual: false, soft: false },
+        Self { directional: false, usual: true, soft: false },
+        Self { directional: true, usual: false, soft: false },
+        Self { directional: true, usual: true, soft: false },
+        Self { directional: false, usual: false, soft: true },
+        Self { directional: false, usual: true, soft: true },
+        Self { directional: true, usual: false, soft: true },
+        Self { directional: true, usual: true, soft: true },
     ];
 
     /// Returns the best variant for the lights of a frame.
     pub(super) fn for_frame(lights: &[ShadowLight], projections: &[GpuProjection]) -> Self {
         let mut shadowed = lights.iter().filter(|light| light.view_count > 0);
+        let soft = projections.iter().any(|projection| projection.max_radius_m > 0.0);
         let is_usual = |light: &ShadowLight| {
-            light.filter_taps == USUAL_TAPS
+            light.filter_taps == usual_taps(soft)
                 && light.bias_method == BIAS_PLANE
                 && light.normal_sine == 1
                 && light.fades_by_radius == 0
@@ -38,17 +48,27 @@ impl Variant {
         Self {
             directional: projections.iter().all(|projection| projection.is_perspective == 0),
             usual: shadowed.all(is_usual),
+            soft,
         }
     }
 
     pub(super) fn index(self) -> u32 {
-        2 * u32::from(self.directional) + u32::from(self.usual)
+        4 * u32::from(self.soft) + 2 * u32::from(self.directional) + u32::from(self.usual)
+    }
+
+    /// Returns whether the lights of the variant with an index have penumbrae.
+    pub(super) fn has_penumbrae(index: u32) -> bool {
+        Self::get(index).soft
+    }
+
+    fn get(index: u32) -> Self {
+        Self::ALL.get(index as usize).copied().unwrap_or_default()
     }
 
     /// Returns the replacement of `shadows/variant.wgsl` for the variant with an index.
     pub(super) fn module(index: u32) -> ModuleSource {
-        let Self { directional, usual } = Self::ALL.get(index as usize).copied().unwrap_or_default();
-        let taps = if usual { USUAL_TAPS } else { 0 };
+        let Self { directional, usual, soft } = Self::get(index);
+        let taps = if usual { usual_taps(soft) } else { 0 };
         let text = format!(
             "#define_import_path shadowgraph::shadows::variant\n\
              const FILTER_TAPS: u32 = {taps}u;\n\
@@ -84,5 +104,7 @@ mod tests {
         assert_eq!(of(&[sun, soft], &[directional]), 2);
         assert_eq!(of(&[sun], &[directional, local]), 1);
         assert_eq!(of(&[soft], &[local]), 0);
+        let wide = GpuProjection { max_radius_m: 1.0, ..directional };
+        assert_eq!(of(&[soft], &[wide]), 7);
     }
 }
