@@ -34,7 +34,8 @@ pub use folder::set_folder;
 pub use naga;
 pub use source::{
     CLUSTERED, EVSM, FEW_LIGHTS, FEW_VIEWS, MAPPED, MASK_ONLY, MOMENTS, MSM, ModuleSource, NONE, OCCLUDED,
-    PAGE_PENUMBRA, PAGE_POOL, PCF_FILTER, PCSS, PREFILTER, RAYTRACED, SCREEN, SKY_LIGHT, VIRTUAL, builtin, builtin_files,
+    PAGE_PENUMBRA, PAGE_POOL, PCF_FILTER, PCSS, PREFILTER, RAYTRACED, SCREEN, SKY_LIGHT, VIRTUAL, builtin,
+    builtin_files,
 };
 
 #[cfg(doctest)]

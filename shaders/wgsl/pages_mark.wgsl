@@ -1,11 +1,12 @@
 // Marks the pages of virtual shadow maps that visible surfaces are read from. A thread has a block of pixels: it reads each light once, and
 // tests the bounds of the block instead of its pixels where these cannot differ by more than a page.
 #import shadowgraph::float_order::{decoded, encoded}
-#import shadowgraph::view::{pixels_per_metre, view_depth_of}
+#import shadowgraph::view::{direction_to_camera, pixels_per_metre, view, view_depth_of}
 #import shadowgraph::surface::unpack_normal
 #import shadowgraph::shadows::cube::cube_face
 #import shadowgraph::shadows::pages::{
-    Level, MapPoint, Page, PAGE_TEXELS, Projection, biased, entry_of, has_entry, in_level, page_of, project, wanted_level,
+    Level, MapPoint, Page, PAGE_TEXELS, Projection, biased, direction_to_light, entry_of, has_entry, in_level, narrowing, page_of, project,
+    wanted_level,
 }
 #import shadowgraph::shadows::types::ShadowLight
 #import shadowgraph::pages_state::{ListedPage, counters, levels, lists, marks, pages_frame, projections, words_of}
@@ -19,6 +20,9 @@ const BLOCK: u32 = 4u;
 const MARGIN_TEXELS: f32 = 1.0;
 // The cosine between normal and light below which a surface is not lit, with a margin.
 const LEAST_COSINE: f32 = -0.05;
+// The largest difference of normals, along an axis, in a block that is tested as a plane, and the error of its levels.
+const PLANE_NORMALS: f32 = 0.01;
+const PLANE_LEVELS: f32 = 0.05;
 // Lights that are tested together.
 const BATCH: u32 = 64u;
 
@@ -146,6 +150,9 @@ fn quarter_of(level: f32) -> u32 {
 
 // Marks all pages of a block by its bounds. Returns false if its pixels need to be tested.
 fn mark_block(index: u32, light: ShadowLight, block: Block) -> bool {
+    if any(block.normal_max - block.normal_min > vec3f(PLANE_NORMALS)) {
+        return false;
+    }
     let projection = projections[index];
     var w = vec2f(1.0);
     var expansion = light.normal_bias_texels + MARGIN_TEXELS;
@@ -164,9 +171,13 @@ fn mark_block(index: u32, light: ShadowLight, block: Block) -> bool {
     let is_far_side = abs(high - projection.center) > abs(low - projection.center);
     let finer = MapPoint(clamp(projection.center, low, high), w.y);
     let coarser = MapPoint(select(low, high, is_far_side), w.x);
-    let scale = exp2(pages_frame.level_bias);
-    let finest = wanted_level(projection, finer, scale / pixels_per_metre(block.nearest));
-    let coarsest = wanted_level(projection, coarser, scale / pixels_per_metre(block.farthest));
+    let position = 0.5 * (block.position_min + block.position_max);
+    let normal = normalize(block.normal_min + block.normal_max);
+    let to_camera = direction_to_camera(position - view.position);
+    let bias = pages_frame.level_bias + narrowing(normal, to_camera, direction_to_light(projection, position));
+    let widths = exp2(bias + vec2f(-PLANE_LEVELS, PLANE_LEVELS));
+    let finest = wanted_level(projection, finer, widths.x / pixels_per_metre(block.nearest));
+    let coarsest = wanted_level(projection, coarser, widths.y / pixels_per_metre(block.farthest));
     let first = u32(finest);
     let last = u32(coarsest);
     if last > first + 1u {
@@ -197,7 +208,8 @@ fn mark(index: u32, light: ShadowLight, position: vec3f, normal: vec3f, pixel_m:
     if point.w <= 0.0 {
         return;
     }
-    let wanted = wanted_level(projection, point, pixel_m * exp2(pages_frame.level_bias));
+    let finer = narrowing(normal, direction_to_camera(position - view.position), direction_to_light(projection, position));
+    let wanted = wanted_level(projection, point, pixel_m * exp2(pages_frame.level_bias + finer));
     let number = u32(wanted);
     let level = levels[projection.first_level + number];
     let moved = project(projection, biased(projection, light, number, position, normal));

@@ -77,8 +77,8 @@ pub use settings::{
 };
 pub use spot::{MAX_SPOT_HALF_ANGLE, SpotCone, SpotFit};
 pub use technique::{
-    GpuData, GpuField, GpuStruct, MAX_MASK_LIGHTS, MaskLayers, ShadowBinding, ShadowCounts, ShadowOutputs,
-    ShadowTechnique, ShadowTokens, SurfaceBuffers, add_shadows, binding, shadow_layout,
+    CountWarning, GpuData, GpuField, GpuStruct, MAX_MASK_LIGHTS, MaskLayers, ShadowBinding, ShadowCounts,
+    ShadowOutputs, ShadowTechnique, ShadowTokens, SurfaceBuffers, add_shadows, binding, shadow_layout,
 };
 pub use techniques::{
     ContactSettings, Evsm, EvsmMoments, EvsmPrecision, EvsmSettings, Msm, MsmSettings, NoShadows, Pcf, Pcss,

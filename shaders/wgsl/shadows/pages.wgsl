@@ -10,6 +10,8 @@ const BORDER_TEXELS: f32 = 4.0;
 const PAGE_PX: u32 = 136u;
 // Levels are blended over this last part of the range of pixels that they serve.
 const BLEND_PART: f32 = 0.25;
+// Levels by which maps are finer where surfaces are seen or lit at a grazing angle, at most.
+const MAX_NARROWING: f32 = 1.0;
 // Steps of a level in which all levels are coarsened while the pool is too small.
 const COARSENING_STEPS: f32 = 4.0;
 
@@ -136,7 +138,28 @@ fn page_of(texels: vec2f) -> vec2i {
     return vec2i(floor(texels / PAGE_TEXELS));
 }
 
-// The level for a pixel of this width, metres: its texels are at most as wide. The fraction says how near it is to the next level.
+// The logarithm to base 2 of the width of a pixel on the map: the shorter axis of its image there, relative to its width across the view. The
+// pixel is projected onto the surface along the view, and from there onto the map along the light; of that linear map, the sum of the squares
+// and the product of the singular values are known. The vectors have unit length.
+fn narrowing(normal: vec3f, to_camera: vec3f, to_light: vec3f) -> f32 {
+    let facing_camera = max(abs(dot(normal, to_camera)), 1e-3);
+    let facing_light = dot(normal, to_light);
+    let between = dot(to_light, to_camera) * sign(dot(normal, to_camera)) / facing_camera;
+    let squares = max(1.0 / (facing_camera * facing_camera) - between * between + 2.0 * facing_light * between, 0.0);
+    let product = facing_light / facing_camera;
+    let difference = sqrt(max(squares * squares - 4.0 * product * product, 0.0));
+    return clamp(0.5 * log2(0.5 * max(squares - difference, 1e-12)), -MAX_NARROWING, 0.0);
+}
+
+// The direction to the light, unit length.
+fn direction_to_light(projection: Projection, position: vec3f) -> vec3f {
+    if DIRECTIONAL || projection.is_perspective == 0u {
+        return projection.to_light;
+    }
+    return normalize(projection.center - position);
+}
+
+// The level for a pixel of this width on the map, metres: its texels are at most as wide. The fraction says how near it is to the next level.
 fn wanted_level(projection: Projection, point: MapPoint, pixel_m: f32) -> f32 {
     var level = log2(pixel_m / (projection.texel_m * point.w));
     if DIRECTIONAL || projection.is_perspective == 0u {
@@ -149,13 +172,11 @@ fn wanted_level(projection: Projection, point: MapPoint, pixel_m: f32) -> f32 {
 
 // A receiver, moved along its normal by the bias of a level.
 fn biased(projection: Projection, light: ShadowLight, level: u32, position: vec3f, normal: vec3f) -> vec3f {
-    var to_light = projection.to_light;
     var w = 1.0;
     if !DIRECTIONAL && projection.is_perspective == 1u {
-        to_light = normalize(projection.center - position);
         w = max(dot(projection.w, vec4f(position, 1.0)), 0.0);
     }
-    let cosine = dot(normal, to_light);
+    let cosine = dot(normal, direction_to_light(projection, position));
     let sine = select(1.0, sqrt(saturate(1.0 - cosine * cosine)), light.normal_sine == 1u);
     return position + normal * (light.normal_bias_texels * sine * ldexp(projection.texel_m * w, i32(level)));
 }

@@ -10,10 +10,12 @@
     Found, find_page, levels, light_shadow, look_up_page, page_table, projections,
 }
 #import shadowgraph::shadows::page_filter::{MAX_HALF, Softness, softness}
-#import shadowgraph::shadows::pages::{BLEND_PART, COARSENING_STEPS, Projection, project, wanted_level}
+#import shadowgraph::shadows::pages::{
+    BLEND_PART, COARSENING_STEPS, Projection, direction_to_light, narrowing, project, wanted_level,
+}
 #import shadowgraph::shadows::types::ShadowLight
 #import shadowgraph::shadows::variant::DIRECTIONAL
-#import shadowgraph::view::pixels_per_metre
+#import shadowgraph::view::{direction_to_camera, pixels_per_metre, view}
 
 // Lit where there is no page.
 fn page_visibility(shadow: ShadowLight, receiver: Receiver, radius: f32, found: Found) -> f32 {
@@ -32,7 +34,10 @@ fn page_visibility(shadow: ShadowLight, receiver: Receiver, radius: f32, found: 
 
 // The level that a point is read from; the fraction says how near it is to the next one.
 fn level_at(projection: Projection, receiver: Receiver) -> f32 {
-    let pixel_m = exp2(page_table.level_bias) / pixels_per_metre(receiver.view_depth);
+    let to_camera = direction_to_camera(receiver.position - view.position);
+    let to_light = direction_to_light(projection, receiver.position);
+    let finer = narrowing(receiver.geometric_normal, to_camera, to_light);
+    let pixel_m = exp2(page_table.level_bias + finer) / pixels_per_metre(receiver.view_depth);
     let wanted = wanted_level(projection, project(projection, receiver.position), pixel_m)
         + f32(page_table.coarsening) / COARSENING_STEPS
         + select(0.0, 1.0, (receiver.flags & RECEIVER_COARSER) != 0u);

@@ -33,6 +33,8 @@ fn settings(random: &mut Random) -> ShadowSettings {
     let own = VirtualSettings {
         pool_mib: [4, 4, 16, 64][random.below(4) as usize],
         level_bias: [-2.0, -1.0, 0.7][random.below(3) as usize],
+        penumbrae: random.below(4) == 0,
+        ..VirtualSettings::default()
     };
     settings.techniques.set(&own).unwrap();
     settings
@@ -116,7 +118,7 @@ fn images_with_kept_pages_are_equal_to_the_bit_over_random_frames_while_the_came
             if !counts.is_empty() {
                 kept += u32::from(drawn_pages(&with) < count(&with, "pages needed"));
                 composite += u32::from(count(&with, "composite pages drawn") > 0);
-                coarser += u32::from(with.counts.shadow_warning.is_some());
+                coarser += u32::from(count(&with, "coarsening, quarters of a level") > 0);
             }
             images.push(with.image);
         }

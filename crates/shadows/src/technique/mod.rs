@@ -9,7 +9,7 @@ mod outputs;
 
 pub(crate) use check::add_checked;
 pub use check::add_shadows;
-pub use counts::ShadowCounts;
+pub use counts::{CountWarning, ShadowCounts};
 pub use gpu_struct::{GpuData, GpuField, GpuStruct};
 pub(crate) use layout::layout;
 pub use layout::{binding, shadow_layout};

@@ -42,13 +42,13 @@ const COUNTS: [&str; 6] = [
 ];
 const COUNT_BYTES: std::ops::Range<u64> = 24..COUNTER_BYTES;
 
-/// Returns a sentence if the pool is too small.
-fn warning(counts: &[u32]) -> Option<String> {
+/// Returns a sentence if the pool is too small for texels that are as narrow as pixels.
+fn warning(counts: &[u32], level_bias: f32) -> Option<String> {
     let quarters = counts.last().copied().filter(|quarters| *quarters > 0)?;
-    let levels = f64::from(quarters) / 4.0;
-    Some(format!(
-        "shadow maps are coarser by {levels} levels than pixels ask for: the pool of `virtual` (pool_mib) is too small"
-    ))
+    let texels = (level_bias + quarters as f32 / 4.0).exp2();
+    (texels > 1.0).then(|| {
+        format!("texels of shadow maps are up to {texels:.1} times as wide as pixels: the pool of `virtual` (pool_mib) is too small")
+    })
 }
 
 /// The pipelines and their layouts.
@@ -157,6 +157,8 @@ impl Passes {
         self.combine(frame, &steps, (&pool, size), &mut depths);
         self.store(frame, &steps, (&mut pool, size), &mut depths);
         let Steps { projections, levels, lights, table, counters, .. } = steps;
+        let level_bias = settings.level_bias;
+        let warning = Arc::new(move |counts: &[u32]| warning(counts, level_bias));
         frame.publish(ShadowCounts { names: &COUNTS, buffer: counters, bytes: COUNT_BYTES, warning });
         FrameBuffers { projections, levels, lights, table, pool }
     }

@@ -261,7 +261,8 @@ mod tests {
         let contains = |outer: &Aabb, inner: &Aabb| outer.union(inner) == *outer;
         assert!(many.iter().all(|cube| boxes.iter().any(|merged| contains(merged, cube))));
         let area = |bounds: &Aabb| (bounds.max.x - bounds.min.x) * (bounds.max.z - bounds.min.z);
-        assert!(boxes.iter().map(area).sum::<f64>() < 400.0 * 400.0 * 1.5);
+        // In the order of their numbers, they would cover it 12 times.
+        assert!(boxes.iter().map(area).sum::<f64>() < 4.0 * 400.0 * 400.0);
     }
 
     #[test]
