@@ -24,6 +24,9 @@ pub(super) const MAX_COARSE: usize = 512;
 const COARSE_PART: u32 = 16;
 /// Their least number for a directional light: four pages contain any view.
 const MIN_COARSE: u32 = 4;
+/// The bias along the normal, relative to that of the settings. It moves the shadows of thin casters, which are hardly wider than a pixel, by
+/// up to some texels where the light comes in at a low angle.
+const NORMAL_BIAS_PART: f32 = 0.25;
 /// Taps of the filter of penumbrae along each axis.
 pub(super) const PENUMBRA_TAPS: u32 = 4;
 /// The radius of the search for blockers: `SEARCH_TEXELS` of `page_penumbra.wgsl`.
@@ -237,7 +240,15 @@ fn light(
     let light = ShadowLight::with_params(&params, range.distance_m);
     let eye = (range.camera.position_world() - inputs.origin_world).as_vec3().to_array();
     let texel_uv = [1.0 / PAGE_PX as f32; 2];
-    ShadowLight { map: MAP_ATLAS, first_view: first, view_count: count as u32, eye, texel_uv, ..light }
+    ShadowLight {
+        map: MAP_ATLAS,
+        first_view: first,
+        view_count: count as u32,
+        normal_bias_texels: NORMAL_BIAS_PART * light.normal_bias_texels,
+        eye,
+        texel_uv,
+        ..light
+    }
 }
 
 /// Gives a projection what penumbrae depend on.
