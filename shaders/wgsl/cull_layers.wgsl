@@ -97,7 +97,7 @@ fn clear_counts(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroup
 fn count_pairs(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) groups: vec3u) {
     for (var number = id.x; number < cull.instance_count; number += GROUP * groups.x) {
         let found = candidate(number);
-        if found.casters == 0u {
+        if (found.casters & layers.casters) == 0u {
             continue;
         }
         var of_batch = 0u;
@@ -166,7 +166,7 @@ fn recount_pairs(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgrou
     }
     for (var number = id.x; number < cull.instance_count; number += GROUP * groups.x) {
         let found = candidate(number);
-        if found.casters == 0u {
+        if (found.casters & layers.casters) == 0u {
             continue;
         }
         var dropped = 0u;
@@ -212,7 +212,7 @@ fn write_draws(@builtin(local_invocation_index) local: u32) {
 fn write_pairs(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) groups: vec3u) {
     for (var number = id.x; number < cull.instance_count; number += GROUP * groups.x) {
         let found = candidate(number);
-        if found.casters == 0u {
+        if (found.casters & layers.casters) == 0u {
             continue;
         }
         for (var index = 0u; index < layers.drawn; index++) {

@@ -27,5 +27,8 @@ struct LayerViews {
     side_px: u32,
     // The number of pairs of an instance and a view that are drawn. The pass that culls writes it.
     pairs: u32,
+    // The casters of all views: the sum of CASTERS_*. Others are not tested.
+    casters: u32,
+    padding: array<u32, 3>,
     views: array<LayerView>,
 }

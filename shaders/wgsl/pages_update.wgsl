@@ -428,6 +428,8 @@ fn cs_allocate(@builtin(local_invocation_index) local: u32) {
     if local == 0u {
         page_views.count = missing;
         page_views.side_px = PAGE_PX;
+        let has_static = min(counters.drawn_static, missing) > 0u;
+        page_views.casters = select(0u, CASTERS_STATIC, has_static) + select(0u, CASTERS_MOVING, missing > counters.drawn_static);
     }
 }
 

@@ -15,6 +15,8 @@ const MAX_HALF: f32 = 3.0;
 // The same for the search.
 const SEARCH_TEXELS: f32 = 3.0;
 const SEARCH_TAPS: u32 = 16u;
+// The half width of the tent whose variance is that of a light's disc of radius 1 behind a straight edge: sqrt(6) / 2.
+const TENT_OF_DISC: f32 = 1.2247449;
 // Searches, each within the radius that the one before has found.
 const SEARCHES: u32 = 2u;
 const GOLDEN_ANGLE: f32 = 2.39996323;
@@ -100,6 +102,7 @@ fn softness(projection_index: u32, shadow: ShadowLight, receiver: Receiver, leve
             break;
         }
     }
+    radius *= TENT_OF_DISC;
     let wide = log2(max(radius, 1e-6) * 2.0 / MAX_HALF);
     return Softness(clamp(wide, level, max(level, f32(projection.level_count - 1u))), radius);
 }

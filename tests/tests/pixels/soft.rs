@@ -1,10 +1,10 @@
-//! `pcss`: penumbrae as wide as the size of the light gives.
+//! `pcss`, and `virtual` with penumbrae: they are as wide as the size of the light gives.
 
 use crate::stage::{add_mesh, box_mesh, camera, floor_mesh, gpu, light, material, sun, view};
 use glam::DVec3;
 use shadowgraph::options::Aov;
 use shadowgraph::scene::{Light, LightKind, Scene};
-use shadowgraph::shadows::{PCSS, PcssSettings};
+use shadowgraph::shadows::{PCSS, PcssSettings, TechniqueKind, VIRTUAL, VirtualSettings};
 use shadowgraph::{Gpu, Renderer, ViewOptions};
 use shadowgraph_quality::Comparator;
 
@@ -25,6 +25,8 @@ fn options() -> ViewOptions {
     // Texels of millimetres: the widest penumbrae are twenty texels wide.
     options.shadows.cascades.map_size_px = 1024;
     options.shadows.atlas.map_size_px = 1024;
+    let soft = VirtualSettings { penumbrae: true, ..VirtualSettings::default() };
+    options.shadows.techniques.set(&soft).unwrap();
     options
 }
 
@@ -34,9 +36,9 @@ fn fine() -> PcssSettings {
 }
 
 /// Returns the width of the penumbra on the floor, from a tenth to nine tenths of the light, metres.
-fn width_m(gpu: &Gpu, scene: &Scene, options: &ViewOptions) -> f64 {
+fn width_m(gpu: &Gpu, scene: &Scene, options: &ViewOptions, technique: TechniqueKind) -> f64 {
     let aov = Aov::Visibility(0);
-    let mut renderer = Renderer::with_config(gpu, scene.clone(), &options.camera, aov, PCSS).unwrap();
+    let mut renderer = Renderer::with_config(gpu, scene.clone(), &options.camera, aov, technique).unwrap();
     let reference = Comparator::new(gpu, &renderer, 0).unwrap().reference(&mut renderer, options, 0).unwrap();
     let image = renderer.draw(gpu, options).unwrap().image;
     let pixels = reference.surfaces.positions.iter().zip(image.rgba8.chunks_exact(4));
@@ -55,10 +57,14 @@ fn penumbrae_of_a_sun_are_as_wide_as_its_angular_size_gives() {
     let mut options = options();
     options.shadows.techniques.set(&PcssSettings { sun_radius_rad: 0.05, ..fine() }).unwrap();
     for height_m in [0.5, 1.0, 1.5] {
-        let width = width_m(gpu, &plate(height_m, sun(DVec3::NEG_Y)), &options);
         // The middle eight tenths of the light of a disc behind a straight edge cover 0.687 of the penumbra.
         let right = 2.0 * height_m * 0.05f64.tan() * 0.687;
-        assert!((width / right - 1.0).abs() < 0.25, "{height_m} m: {width} instead of {right}");
+        for technique in [PCSS, VIRTUAL] {
+            let width = width_m(gpu, &plate(height_m, sun(DVec3::NEG_Y)), &options, technique);
+            let name = technique.name;
+            assert!((width / right - 1.0).abs() < 0.25, "{name}, {height_m} m: {width} instead of {right}");
+            println!("{name}, {height_m} m: {width} m wide, {right} m expected");
+        }
     }
 }
 
@@ -78,8 +84,12 @@ fn penumbrae_of_a_spot_light_widen_with_the_distance_behind_the_occluder() {
         light(kind, 2000.0)
     };
     for height_m in [1.0, 1.8] {
-        let width = width_m(gpu, &plate(height_m, spot()), &options);
         let right = 2.0 * 0.1 * height_m / (4.0 - height_m) * 0.687;
-        assert!((width / right - 1.0).abs() < 0.25, "{height_m} m: {width} instead of {right}");
+        for technique in [PCSS, VIRTUAL] {
+            let width = width_m(gpu, &plate(height_m, spot()), &options, technique);
+            let name = technique.name;
+            assert!((width / right - 1.0).abs() < 0.25, "{name}, {height_m} m: {width} instead of {right}");
+            println!("{name}, {height_m} m: {width} m wide, {right} m expected");
+        }
     }
 }

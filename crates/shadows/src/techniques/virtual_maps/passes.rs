@@ -29,7 +29,7 @@ const NEEDS: u32 = 1 << 16;
 const LISTED_BYTES: u64 = 24;
 const COUNTER_BYTES: u64 = 48;
 const VIEW_BYTES: u64 = 96;
-const VIEWS_HEADER_BYTES: u64 = 16;
+const VIEWS_HEADER_BYTES: u64 = 32;
 
 /// The numbers of `Counters` that are read back, from `needed` on, and their bytes.
 const COUNTS: [&str; 6] = [
