@@ -260,7 +260,7 @@ fn soften(projection: &mut GpuProjection, penumbrae: &Penumbrae) {
     } else {
         let levels = (penumbrae.max_radius_m / (SEARCH_TEXELS * projection.texel_m)).log2().ceil();
         // The coarser one of two levels that are blended.
-        (penumbrae.sun_tangent, (levels.max(0.0) as u32 + 1).min(last))
+        (penumbrae.sun_tangent, (levels.clamp(0.0, 30.0) as u32 + 1).min(last))
     };
 }
 
