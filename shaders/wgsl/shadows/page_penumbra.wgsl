@@ -1,6 +1,6 @@
 // Penumbrae in virtual shadow maps, after Fernando, "Percentage-Closer Soft Shadows" (2005): their width follows from the light's size and the
-// distance of the blockers. Blockers are searched, and penumbrae filtered, in the level where they are some texels wide. It replaces the
-// built-in module of filters of constant width.
+// distance of the blockers. Blockers are searched around the point in finer and then coarser levels, always some texels far, and penumbrae are
+// filtered in the level where they are some texels wide. It replaces the built-in module of filters of constant width.
 #define_import_path shadowgraph::shadows::page_filter
 #import shadowgraph::receiver::{Receiver, receiver_noise}
 #import shadowgraph::shadows::lookup::Lookup
@@ -10,15 +10,17 @@
 #import shadowgraph::shadows::tent::tent_depth
 #import shadowgraph::shadows::types::ShadowLight
 
-// The largest half width of the tent, texels: the border of a page is a texel wider.
+// The largest half width of the tent, texels: the border of a page is a texel wider. Penumbrae are at least half as wide in the level that they
+// are read from.
 const MAX_HALF: f32 = 3.0;
-// The same for the search.
+const LEAST_HALF: f32 = 1.0;
+// The same for a search.
 const SEARCH_TEXELS: f32 = 3.0;
 const SEARCH_TAPS: u32 = 16u;
+// Levels from one search to the next.
+const SEARCH_STEP: u32 = 2u;
 // The half width of the tent whose variance is that of a light's disc of radius 1 behind a straight edge: sqrt(6) / 2.
 const TENT_OF_DISC: f32 = 1.2247449;
-// Searches, each within the radius that the one before has found.
-const SEARCHES: u32 = 2u;
 const GOLDEN_ANGLE: f32 = 2.39996323;
 const TAU: f32 = 6.28318531;
 
@@ -26,7 +28,7 @@ const TAU: f32 = 6.28318531;
 struct Softness {
     // The level that it is read from; the fraction says how near it is to the next one.
     level: f32,
-    // The radius of the filter, texels of level 0; the filter of the settings is the least.
+    // The half width of the filter, texels of level 0.
     radius: f32,
 }
 
@@ -34,29 +36,6 @@ struct Softness {
 fn spiral(tap: u32, rotation: f32) -> vec2f {
     let angle = f32(tap) * GOLDEN_ANGLE + rotation;
     return sqrt((f32(tap) + 0.5) / f32(SEARCH_TAPS)) * vec2f(cos(angle), sin(angle));
-}
-
-// The mean depth of the blockers within a radius, texels of the page; 0 without any.
-fn blocker_depth(shadow: ShadowLight, lookup: Lookup, radius: f32, rotation: f32) -> f32 {
-    let at = lookup.uv * map_size(shadow.map);
-    let slope = lookup.plane.slope;
-    var blockers = 0.0;
-    var depths = 0.0;
-    var i = 0u;
-    loop {
-        let tap = radius * spiral(i, rotation);
-        let rise = abs(dot(slope, tap)) + 0.5 * (abs(slope.x) + abs(slope.y));
-        let stored = stored_depth(shadow.map, vec2i(floor(at + tap)));
-        if stored > tent_depth(lookup.plane, rise, tap) {
-            blockers += 1.0;
-            depths += stored;
-        }
-        i++;
-        if i == SEARCH_TAPS {
-            break;
-        }
-    }
-    return depths / max(blockers, 1.0);
 }
 
 // The radius of the penumbra of a blocker, texels of level 0, in a page of a level.
@@ -74,35 +53,64 @@ fn penumbra(projection: Projection, number: u32, lookup: Lookup, blocker: f32) -
     return projection.light_radius * max(lookup.w - blocker_w, 0.0) / (blocker_w * lookup.w * projection.texel_m);
 }
 
+// The mean radius of the penumbrae, texels of level 0, of the blockers within some texels of a point that darken it: it is nearer to them than
+// the radius of their penumbra. 0 without any.
+fn blocker_penumbra(shadow: ShadowLight, projection: Projection, number: u32, lookup: Lookup, rotation: f32) -> f32 {
+    let at = lookup.uv * map_size(shadow.map);
+    let slope = lookup.plane.slope;
+    let texel = exp2(f32(number));
+    var blockers = 0.0;
+    var sum = 0.0;
+    var i = 0u;
+    loop {
+        let tap = SEARCH_TEXELS * spiral(i, rotation);
+        let rise = abs(dot(slope, tap)) + 0.5 * (abs(slope.x) + abs(slope.y));
+        let stored = stored_depth(shadow.map, vec2i(floor(at + tap)));
+        if stored > tent_depth(lookup.plane, rise, tap) {
+            let radius = penumbra(projection, number, lookup, stored);
+            // A texel is as wide as it is far.
+            if radius >= (length(tap) - 1.0) * texel {
+                blockers += 1.0;
+                sum += radius;
+            }
+        }
+        i++;
+        if i == SEARCH_TAPS {
+            break;
+        }
+    }
+    return sum / max(blockers, 1.0);
+}
+
 // `level`: the one whose texels are as wide as the pixel asks for.
 fn softness(projection_index: u32, shadow: ShadowLight, receiver: Receiver, level: f32) -> Softness {
     let projection = projections[projection_index];
     let w = max(project(projection, receiver.position).w, 1e-6);
     let widest = projection.max_radius_m / (projection.texel_m * w);
     let rotation = TAU * receiver_noise(receiver);
-    var radius = widest;
-    var search = 0u;
+    let last = projection.level_count - 1u;
+    var radius = 0.0;
+    var number = u32(level);
     loop {
-        let number = max(ceil(log2(max(radius, 1e-6) / SEARCH_TEXELS)), floor(level));
-        let found = find_page(projection_index, shadow, receiver, u32(clamp(number, 0.0, f32(projection.level_count - 1u))));
+        let found = find_page(projection_index, shadow, receiver, number);
         let lookup = look_up_page(shadow, receiver, found);
         if !lookup.covered {
             break;
         }
-        let found_number = found.page.level;
-        let searched = clamp(ldexp(radius, -i32(found_number)), 1.0, SEARCH_TEXELS);
-        let blocker = blocker_depth(shadow, lookup, searched, rotation);
-        if blocker == 0.0 {
-            radius = 0.0;
+        number = found.page.level;
+        radius = blocker_penumbra(shadow, projection, number, lookup, rotation);
+        if radius > 0.0 || number == last || ldexp(SEARCH_TEXELS, i32(number)) >= widest {
             break;
         }
-        radius = clamp(penumbra(projection, found_number, lookup, blocker), 0.0, widest);
-        search++;
-        if search == SEARCHES {
-            break;
-        }
+        number = min(number + SEARCH_STEP, last);
     }
-    radius *= TENT_OF_DISC;
-    let wide = log2(max(radius, 1e-6) * 2.0 / MAX_HALF);
-    return Softness(clamp(wide, level, max(level, f32(projection.level_count - 1u))), radius);
+    // At least as wide as the filter of the settings in the level that the pixel asks for.
+    radius = max(TENT_OF_DISC * min(radius, widest), shadow.filter_half * exp2(floor(level)));
+    let wide = log2(radius * 2.0 / MAX_HALF);
+    return Softness(clamp(wide, level, max(level, f32(last))), radius);
+}
+
+// The half width of the filter in a level, texels.
+fn half_width(shadow: ShadowLight, soft: Softness, level: u32) -> f32 {
+    return clamp(ldexp(soft.radius, -i32(level)), LEAST_HALF, MAX_HALF);
 }

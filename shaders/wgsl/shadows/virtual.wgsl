@@ -9,7 +9,7 @@
 #import shadowgraph::shadows::page_lookup::{
     Found, find_page, levels, light_shadow, look_up_page, page_table, projections,
 }
-#import shadowgraph::shadows::page_filter::{MAX_HALF, Softness, softness}
+#import shadowgraph::shadows::page_filter::{Softness, half_width, softness}
 #import shadowgraph::shadows::pages::{
     BLEND_PART, COARSENING_STEPS, Projection, direction_to_light, narrowing, project, wanted_level,
 }
@@ -18,13 +18,13 @@
 #import shadowgraph::view::{direction_to_camera, pixels_per_metre, view}
 
 // Lit where there is no page.
-fn page_visibility(shadow: ShadowLight, receiver: Receiver, radius: f32, found: Found) -> f32 {
+fn page_visibility(shadow: ShadowLight, receiver: Receiver, soft: Softness, found: Found) -> f32 {
     let lookup = look_up_page(shadow, receiver, found);
     if !lookup.covered {
         return 1.0;
     }
     var light = shadow;
-    light.filter_half = clamp(ldexp(radius, -i32(found.page.level)), shadow.filter_half, max(MAX_HALF, shadow.filter_half));
+    light.filter_half = half_width(shadow, soft, found.page.level);
     let visibility = filtered(light, receiver, lookup);
     if visibility > 0.0 && is_behind_crease(light, lookup, light.filter_half) {
         return 0.0;
@@ -75,7 +75,7 @@ fn shadow_visibility(light: u32, receiver: Receiver) -> vec3f {
     var visibility = 0.0;
     var is_last = weight == 1.0;
     loop {
-        visibility += weight * page_visibility(shadow, receiver, soft.radius, found);
+        visibility += weight * page_visibility(shadow, receiver, soft, found);
         if is_last {
             break;
         }

@@ -113,8 +113,12 @@ impl ShadowTechnique for VirtualMaps {
 
     fn modules(&self, variant: u32) -> Vec<ModuleSource> {
         let filter = PCF_FILTER.source.replace("@binding(10)", "@binding(5)");
-        let mut modules =
-            vec![VIRTUAL, PAGE_POOL, ModuleSource::new(PCF_FILTER.file, filter), Variant::module(variant)];
+        let mut modules = vec![
+            VIRTUAL,
+            PAGE_POOL,
+            ModuleSource::new(format!("{} of virtual", PCF_FILTER.file), filter),
+            Variant::module(variant),
+        ];
         if Variant::has_penumbrae(variant) {
             modules.push(PAGE_PENUMBRA);
         }
