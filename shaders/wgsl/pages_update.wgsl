@@ -433,12 +433,26 @@ fn cs_allocate(@builtin(local_invocation_index) local: u32) {
     }
 }
 
+// Shows the static page in place of a composite one, if there is one.
+fn show_static(entry: u32, depths: u32) {
+    let layer = depths & ~IS_LAYER;
+    if (depths & IS_LAYER) == 0u {
+        show(entry, depths, 0u);
+    } else if layer < page_views.drawn {
+        show(entry, page_views.views[layer].tag.x, PAGE_DRAWN);
+    }
+}
+
 @compute @workgroup_size(64)
 fn cs_finish(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) groups: vec3u) {
     for (var index = page_views.drawn + id.x; index < page_views.count; index += 64u * groups.x) {
-        let place = page_views.views[index].tag.x;
-        page_table.entries[physical_pages[place].entry] = 0u;
-        free(place);
+        let tag = page_views.views[index].tag;
+        let entry = physical_pages[tag.x].entry;
+        page_table.entries[entry] = 0u;
+        if physical_pages[tag.x].kind == COMPOSITE {
+            show_static(entry, tag.y);
+        }
+        free(tag.x);
     }
     if id.x == 0u {
         counters.vertex_count = 6u;

@@ -1,7 +1,9 @@
 //! Images with kept maps are those with maps that are drawn every frame.
 
 use crate::maps::notes;
-use crate::worlds::{Pair, SIZE_PX, camera, different_pixels, edit_lights, edit_material, scene, settings};
+use crate::worlds::{
+    Pair, SIZE_PX, camera, different_pixels, edit_lights, edit_material, move_some, scene, settings,
+};
 use crate::{frames, gpu, seed};
 use glam::DVec3;
 use shadowgraph::ViewOptions;
@@ -50,14 +52,7 @@ impl Counts {
 
 /// Changes a scene as a game and its editor would: some objects move all the time.
 fn change(scene: &mut Scene, random: &mut Random) {
-    for nth in [2, 3, 4] {
-        let Some((key, instance)) = scene.instances().nth(nth) else { continue };
-        let mut moved = instance.world_from_local;
-        moved.translation += DVec3::new(random.between(-0.1, 0.1), 0.0, random.between(-0.1, 0.1));
-        if random.below(3) > 0 {
-            scene.move_instance(key, moved).unwrap();
-        }
-    }
+    move_some(scene, random);
     match random.below(12) {
         0 | 1 => edit_material(scene, random),
         2 | 3 => edit_lights(scene, random),

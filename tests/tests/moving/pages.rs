@@ -1,6 +1,6 @@
 //! Virtual shadow maps that keep pages: equal to those that are drawn in every frame, at a cost in proportion to what changed.
 
-use crate::worlds::{Pair, SIZE_PX, camera, different_pixels, edit_lights, edit_material, scene};
+use crate::worlds::{Pair, SIZE_PX, camera, different_pixels, edit_lights, edit_material, move_some, scene};
 use crate::{frames, gpu, seed};
 use glam::{DAffine3, DVec3};
 use shadowgraph::options::Aov;
@@ -42,14 +42,7 @@ fn settings(random: &mut Random) -> ShadowSettings {
 
 /// Changes a scene as a game and its editor would: some objects move most of the time, and now and then stand for a while.
 fn change(scene: &mut Scene, random: &mut Random) {
-    for nth in [2, 3, 4] {
-        let Some((key, instance)) = scene.instances().nth(nth) else { continue };
-        let mut moved = instance.world_from_local;
-        moved.translation += DVec3::new(random.between(-0.1, 0.1), 0.0, random.between(-0.1, 0.1));
-        if random.below(3) > 0 {
-            scene.move_instance(key, moved).unwrap();
-        }
-    }
+    move_some(scene, random);
     match random.below(12) {
         0 => edit_material(scene, random),
         1 | 2 => edit_lights(scene, random),

@@ -87,6 +87,18 @@ pub(crate) fn edit_lights(scene: &mut Scene, random: &mut Random) {
     scene.set_lights(changed);
 }
 
+/// Moves some of three objects a little.
+pub(crate) fn move_some(scene: &mut Scene, random: &mut Random) {
+    for nth in [2, 3, 4] {
+        let Some((key, instance)) = scene.instances().nth(nth) else { continue };
+        let mut moved = instance.world_from_local;
+        moved.translation += DVec3::new(random.between(-0.1, 0.1), 0.0, random.between(-0.1, 0.1));
+        if random.below(3) > 0 {
+            scene.move_instance(key, moved).unwrap();
+        }
+    }
+}
+
 /// Changes how a material casts shadows.
 pub(crate) fn edit_material(scene: &mut Scene, random: &mut Random) {
     let number = random.below(scene.materials().len() as u64) as usize;
