@@ -6,7 +6,7 @@
 #import shadowgraph::shadows::lookup::Lookup
 #import shadowgraph::shadows::maps::{map_size, stored_depth}
 #import shadowgraph::shadows::page_lookup::{Found, find_page, levels, look_up_page, projections}
-#import shadowgraph::shadows::pages::{Projection, project}
+#import shadowgraph::shadows::pages::{Projection, Softness, project}
 #import shadowgraph::shadows::tent::tent_depth
 #import shadowgraph::shadows::types::ShadowLight
 
@@ -23,14 +23,6 @@ const SEARCH_STEP: u32 = 2u;
 const TENT_OF_DISC: f32 = 1.2247449;
 const GOLDEN_ANGLE: f32 = 2.39996323;
 const TAU: f32 = 6.28318531;
-
-// How soft the shadows of a point are.
-struct Softness {
-    // The level that it is read from; the fraction says how near it is to the next one.
-    level: f32,
-    // The half width of the filter, texels of level 0.
-    radius: f32,
-}
 
 // A point in the unit disc.
 fn spiral(tap: u32, rotation: f32) -> vec2f {

@@ -110,6 +110,14 @@ fn has_entry(level: Level, place: vec2i) -> bool {
     return all(offset < vec2u(1u << level.side_shift));
 }
 
+// How soft the shadows of a point are.
+struct Softness {
+    // The level that it is read from; the fraction says how near it is to the next one.
+    level: f32,
+    // The half width of the filter, texels of level 0.
+    radius: f32,
+}
+
 // A point in a projection.
 struct MapPoint {
     // Texels of level 0, and z/w.

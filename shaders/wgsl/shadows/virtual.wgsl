@@ -9,9 +9,9 @@
 #import shadowgraph::shadows::page_lookup::{
     Found, find_page, levels, light_shadow, look_up_page, page_table, projections,
 }
-#import shadowgraph::shadows::page_filter::{Softness, half_width, softness}
+#import shadowgraph::shadows::page_filter::{half_width, softness}
 #import shadowgraph::shadows::pages::{
-    BLEND_PART, COARSENING_STEPS, Projection, direction_to_light, narrowing, project, wanted_level,
+    BLEND_PART, COARSENING_STEPS, Projection, Softness, direction_to_light, narrowing, project, wanted_level,
 }
 #import shadowgraph::shadows::types::ShadowLight
 #import shadowgraph::shadows::variant::DIRECTIONAL
