@@ -10,33 +10,13 @@
 // A page has a static physical page, with the casters that stand, and where casters move also a composite one, with all of them. A composite
 // page is drawn again for each movement, and its static page stays as it is.
 #import shadowgraph::shadows::pages::{
-    BORDER_TEXELS, IS_LAYER, Level, PAGE_DRAWN, PAGE_PX, PAGE_TEXELS, Page, PageTable, Projection, entry_of, has_entry, parent_of,
+    BORDER_TEXELS, COMPOSITE, IS_LAYER, Level, PAGE_DRAWN, PAGE_PX, PAGE_TEXELS, Page, PageTable, PhysicalPage, Projection, STATIC,
+    entry_of, has_entry, parent_of,
 }
 #import shadowgraph::layer_views::{CASTERS_MOVING, CASTERS_STATIC, LayerViews}
 #import shadowgraph::pages_state::{
     ListedPage, counters, level_of, levels, lists, marks, pages_frame, projections, frame_stamp, words_of,
 }
-
-// A physical page. 48 bytes.
-struct PhysicalPage {
-    page: Page,
-    // That of the projection when the page was drawn; 0: the page is free.
-    version: u32,
-    // That of its level.
-    exponent: i32,
-    // The last frame that needed it.
-    last_frame: u32,
-    // The index of its entry.
-    entry: u32,
-    // STATIC or COMPOSITE.
-    kind: u32,
-    // The frame that drew it, and its layer there.
-    drawn_frame: u32,
-    layer: u32,
-}
-
-const STATIC: u32 = 0u;
-const COMPOSITE: u32 = 1u;
 
 @group(2) @binding(0) var<storage, read_write> page_table: PageTable;
 @group(2) @binding(1) var<storage, read_write> physical_pages: array<PhysicalPage>;

@@ -1,13 +1,16 @@
 //! Evaluates a technique at arbitrary points, independent of what the camera sees.
 
 use std::borrow::Cow;
+use std::sync::Arc;
 
 use shadowgraph_core::{
     Bind, Contents, Format, Frame, Graph, PassTime, Plan, ResourceDesc, Subresource, TextureDesc, Timer,
 };
 use shadowgraph_lighting::{Geometry, ViewUniforms};
 use shadowgraph_scene::gpu::DrawList;
-use shadowgraph_shadows::{CullSettings, ShadowInputs, ShadowSettings, add_shadows, shadow_layout};
+use shadowgraph_shadows::{
+    CullSettings, ShadowCounts, ShadowInputs, ShadowSettings, add_shadows, shadow_layout,
+};
 
 use super::Surfaces;
 use super::comparator::pixel_m_at_1m;
@@ -140,18 +143,27 @@ impl Probe {
         let view = renderer.view(&options, None);
         let (draws, casters) = (view.list_draws(), CountingCasters::new(renderer.casters()));
         let (mut graph, mut timer) = (renderer.graph(), Timer::new());
-        let (bytes, plan) = gpu.checked(|| {
+        let drawn = gpu.checked(|| {
             let inputs =
                 ProbeInputs { renderer, view: &view, draws: &draws, casters: &casters, points, query };
             self.execute(gpu, &inputs, &mut graph, &mut timer)
         })?;
-        let visibility = bytes.as_chunks::<4>().0.iter().map(|&bytes| f32::from_le_bytes(bytes)).collect();
+        let visibility =
+            drawn.texels.as_chunks::<4>().0.iter().map(|&bytes| f32::from_le_bytes(bytes)).collect();
         let times = timer.read(&gpu.device, &gpu.queue)?;
         let technique_times = times.iter().filter(|time| is_technique(&time.pass));
         let gpu_ms = technique_times.filter_map(PassTime::gpu_share_ms);
         let (draws, triangles) = casters.counts();
-        let texture_bytes = texture_bytes(&plan);
-        let cost = Cost { gpu_ms: gpu_ms.reduce(|a, b| a + b), texture_bytes, draws, triangles };
+        let count_of =
+            |name| drawn.counts.iter().find(|count| count.0 == name).map(|count| u64::from(count.1));
+        let drawn_into_pages = count_of(ShadowCounts::CASTERS);
+        let cost = Cost {
+            gpu_ms: gpu_ms.reduce(|a, b| a + b),
+            texture_bytes: texture_bytes(&drawn.plan),
+            draws: draws + drawn_into_pages.unwrap_or(0),
+            triangles: drawn_into_pages.is_none().then_some(triangles),
+            pages: count_of(ShadowCounts::PAGES),
+        };
         Ok(Results { visibility, cost })
     }
 
@@ -161,7 +173,7 @@ impl Probe {
         inputs: &ProbeInputs<'f>,
         graph: &mut Graph,
         timer: &mut Timer,
-    ) -> Result<(Vec<u8>, std::sync::Arc<Plan>), Error> {
+    ) -> Result<Drawn, Error> {
         let ProbeInputs { renderer, view, draws, casters, points, query } = *inputs;
         let options = view.options;
         let scene = &renderer.casters().scene;
@@ -214,13 +226,36 @@ impl Probe {
             Ok(())
         });
         let request = frame.read_back_texture(&results, Subresource::FULL);
+        let counts = frame.published::<ShadowCounts>().ok().cloned();
+        let counts = counts.map(|ShadowCounts { names, buffer, bytes, .. }| {
+            (names, frame.read_back_buffer(&buffer, Subresource::FULL.bytes(bytes)))
+        });
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         let compiled = graph.compile(frame)?;
         let mut executed = compiled.execute_timed(graph, &gpu.device, &mut encoder, timer)?;
         gpu.queue.submit([encoder.finish()]);
-        let texels = executed.read_back(request).ok_or(Error::MissingReadback)?;
-        Ok((texels.wait(&gpu.device)?, executed.shared_plan()))
+        let mut read_back = |request| -> Result<Vec<u8>, Error> {
+            let bytes = executed.read_back(request).ok_or(Error::MissingReadback)?;
+            Ok(bytes.wait(&gpu.device)?)
+        };
+        let texels = read_back(request)?;
+        let counts =
+            counts.map(|(names, request)| Ok::<_, Error>((names, read_back(request)?))).transpose()?;
+        let counts = counts.map_or_else(Vec::new, |(names, bytes)| {
+            let numbers = bytes.as_chunks().0.iter().map(|&bytes| u32::from_le_bytes(bytes));
+            names.iter().copied().zip(numbers).collect()
+        });
+        Ok(Drawn { texels, counts, plan: executed.shared_plan() })
     }
+}
+
+/// What is read back of a frame.
+struct Drawn {
+    /// Visibility at the points.
+    texels: Vec<u8>,
+    /// What the technique's passes have counted.
+    counts: Vec<(&'static str, u32)>,
+    plan: Arc<Plan>,
 }
 
 #[derive(Clone, Copy)]

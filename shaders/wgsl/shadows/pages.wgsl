@@ -79,6 +79,27 @@ struct Page {
     place: vec2i,
 }
 
+// A physical page. 48 bytes.
+struct PhysicalPage {
+    page: Page,
+    // That of the projection when the page was drawn; 0: the page is free.
+    version: u32,
+    // That of its level.
+    exponent: i32,
+    // The last frame that needed it.
+    last_frame: u32,
+    // The index of its entry.
+    entry: u32,
+    // STATIC or COMPOSITE.
+    kind: u32,
+    // The frame that drew it, and its layer there.
+    drawn_frame: u32,
+    layer: u32,
+}
+
+const STATIC: u32 = 0u;
+const COMPOSITE: u32 = 1u;
+
 // The pages of the frame.
 struct PageTable {
     // Number of the frame, modulo 65536.

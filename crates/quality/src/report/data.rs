@@ -145,8 +145,11 @@ pub struct Cost {
     pub texture_bytes: u64,
     /// Number of draws of casters.
     pub draws: u64,
-    /// Number of triangles of casters.
-    pub triangles: u64,
+    /// Number of triangles of casters; `None` where the GPU decides what is drawn.
+    pub triangles: Option<u64>,
+    /// Number of pages, if the technique has any.
+    #[serde(default)]
+    pub pages: Option<u64>,
 }
 
 /// Image files of a case, as paths relative to the page.

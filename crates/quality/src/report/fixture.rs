@@ -37,7 +37,13 @@ fn case(index: usize, technique: &str, misclassified_percent: f64) -> CaseReport
         }),
         seam: Some(some),
         flicker: vec![flicker(Motion::Translate, true), flicker(Motion::Zoom, false)],
-        cost: Some(Cost { gpu_ms: Some(1.25), texture_bytes: 64 << 20, draws: 20, triangles: 123_456 }),
+        cost: Some(Cost {
+            gpu_ms: Some(1.25),
+            texture_bytes: 64 << 20,
+            draws: 20,
+            triangles: Some(123_456),
+            pages: None,
+        }),
         images: Some(ImageFiles {
             color: format!("images/{index}/image.png"),
             truth: format!("images/{index}/truth.png"),

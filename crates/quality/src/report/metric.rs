@@ -145,7 +145,14 @@ pub const METRICS: &[Metric] = &[
         heading: ["tri-", "angles"],
         description: "Triangles of casters drawn per frame.",
         decimals: 0,
-        value: |case| case.cost.map(|cost| cost.triangles as f64),
+        value: |case| Some(case.cost?.triangles? as f64),
+    },
+    Metric {
+        name: "pages",
+        heading: ["pages", ""],
+        description: "Pages of virtual shadow maps that a frame needs.",
+        decimals: 0,
+        value: |case| Some(case.cost?.pages? as f64),
     },
 ];
 

@@ -12,7 +12,7 @@ const WIDTH: usize = 130;
 
 /// Metrics that are left out for lack of space.
 const PAGE_ONLY: &[&str] =
-    &["leak_percent", "peter_panning_cm", "edge_width_ratio", "flicker_zoom", "triangles"];
+    &["leak_percent", "peter_panning_cm", "edge_width_ratio", "flicker_zoom", "triangles", "pages"];
 
 /// Metrics whose worst cases are listed.
 const WORST_CASES_OF: &[&str] = &["misclassified_percent", "mean_error_percent", "missing_contacts_percent"];

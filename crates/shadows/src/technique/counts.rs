@@ -19,5 +19,12 @@ pub struct ShadowCounts {
     pub warning: CountWarning,
 }
 
+impl ShadowCounts {
+    /// The name of the number of pages that the frame needs.
+    pub const PAGES: &str = "pages needed";
+    /// The name of the number of casters drawn, each once for every page that it is drawn into.
+    pub const CASTERS: &str = "casters drawn into pages";
+}
+
 /// A warning that depends on numbers.
 pub type CountWarning = Arc<dyn Fn(&[u32]) -> Option<String> + Send + Sync>;

@@ -9,6 +9,7 @@
 
 mod passes;
 mod plan;
+mod pool_view;
 mod projections;
 mod settings;
 mod slots;
@@ -68,23 +69,24 @@ impl VirtualMaps {
     fn all_lit<'f>(&'f self, frame: &mut Frame<'f>, plan: &VirtualPlan) -> ShadowOutputs<'f> {
         let pool = frame.import_texture("pool", &self.no_pool, true);
         let nothing = || ShadowBinding::ExternalBuffer(&self.nothing);
-        self.outputs([nothing(), nothing(), nothing(), nothing()], pool, plan)
+        self.outputs([nothing(), nothing(), nothing(), nothing()], pool.clone(), pool, plan)
     }
 
     fn outputs<'f>(
         &'f self,
         buffers: [ShadowBinding<'f>; 4],
         pool: Texture,
+        pool_view: Texture,
         plan: &VirtualPlan,
     ) -> ShadowOutputs<'f> {
         let mut bindings = Vec::from(buffers);
-        bindings.push(ShadowBinding::Texture(pool.clone()));
+        bindings.push(ShadowBinding::Texture(pool));
         bindings.push(ShadowBinding::Sampler(&self.sampler));
         ShadowOutputs {
             variant: Variant::for_frame(&plan.lights, &plan.projections).index(),
             bindings,
             debug_light: plan.main_light,
-            debug: vec![("pool", pool)],
+            debug: vec![("pool", pool_view)],
             unshadowed: plan.unshadowed.clone(),
             ..ShadowOutputs::default()
         }
@@ -159,10 +161,10 @@ impl ShadowTechnique for VirtualMaps {
         frame.node("shadows", |frame| {
             let inputs = (inputs, buffers, &settings);
             let store = (&store, next, &boxes);
-            let FrameBuffers { projections, levels, lights, table, pool } =
+            let FrameBuffers { projections, levels, lights, table, pool, pool_view } =
                 self.passes.add_to(frame, inputs, (&plan, casters), store);
             let buffers = [projections, levels, lights, table].map(ShadowBinding::Buffer);
-            Ok(self.outputs(buffers, pool, &plan))
+            Ok(self.outputs(buffers, pool, pool_view, &plan))
         })
     }
 }

@@ -4,6 +4,7 @@ use shadowgraph_core::{Bind, Buffer, BufferDesc, Contents, Format, Frame, Textur
 use shadowgraph_shaders::compose;
 
 use super::plan::{MAX_COARSE, VirtualPlan};
+use super::pool_view::PoolView;
 use super::projections::PAGE_PX;
 use super::settings::VirtualSettings;
 use super::store::{Boxes, MAX_BOXES, PageStore, StoreState};
@@ -33,11 +34,11 @@ const VIEWS_HEADER_BYTES: u64 = 32;
 
 /// The numbers of `Counters` that are read back, from `needed` on, and their bytes.
 const COUNTS: [&str; 6] = [
-    "pages needed",
+    ShadowCounts::PAGES,
     "pages resident",
     "static pages drawn",
     "composite pages drawn",
-    "casters drawn into pages",
+    ShadowCounts::CASTERS,
     "coarsening, quarters of a level",
 ];
 const COUNT_BYTES: std::ops::Range<u64> = 24..COUNTER_BYTES;
@@ -66,6 +67,7 @@ pub(super) struct Passes {
     finish: wgpu::ComputePipeline,
     combine: wgpu::ComputePipeline,
     store: wgpu::RenderPipeline,
+    pool_view: PoolView,
 }
 
 /// The buffers of a frame.
@@ -75,6 +77,8 @@ pub(super) struct FrameBuffers {
     pub(super) lights: Buffer,
     pub(super) table: Buffer,
     pub(super) pool: Texture,
+    /// The pool as an image.
+    pub(super) pool_view: Texture,
 }
 
 impl Passes {
@@ -100,6 +104,7 @@ impl Passes {
             finish: update("cs_finish"),
             combine: pipeline(device, &combining, "cs_combine", &[&combine_layout]),
             store,
+            pool_view: PoolView::new(device)?,
             view_layout,
             state_layout,
             mark_layout,
@@ -153,14 +158,16 @@ impl Passes {
         draw(frame, casters, &drawn, &steps.views, &mut depths);
         let [width, height] = store.size.size_px;
         let size = frame.uniform(bytemuck::cast_slice(&[width, height, store.size.columns, 0]));
-        let mut pool = frame.import_texture("pool", &store.pool, true);
+        let mut pool = frame.import_texture("page pool", &store.pool, true);
         self.combine(frame, &steps, (&pool, size), &mut depths);
         self.store(frame, &steps, (&mut pool, size), &mut depths);
-        let Steps { projections, levels, lights, table, counters, .. } = steps;
+        let Steps { projections, levels, lights, table, pages, counters, .. } = steps;
+        let pool_view =
+            self.pool_view.add_to(frame, [&projections, &levels, &table, &pages], &pool, store.size.size_px);
         let level_bias = settings.level_bias;
         let warning = Arc::new(move |counts: &[u32]| warning(counts, level_bias));
         frame.publish(ShadowCounts { names: &COUNTS, buffer: counters, bytes: COUNT_BYTES, warning });
-        FrameBuffers { projections, levels, lights, table, pool }
+        FrameBuffers { projections, levels, lights, table, pool, pool_view }
     }
 
     /// Adds a pass with some steps of `pages_update.wgsl`. `recorded` is called when it is recorded.
