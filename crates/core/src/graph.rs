@@ -34,6 +34,8 @@ pub struct Graph {
     plans: Plans,
     #[cfg(feature = "gpu")]
     pub(crate) device: crate::pool::Pool,
+    #[cfg(feature = "gpu")]
+    pub(crate) values: crate::execute::ValueOption,
 }
 
 impl Graph {
@@ -100,6 +102,36 @@ impl Graph {
     #[cfg(feature = "gpu")]
     pub fn set_poison(&mut self, on: bool) {
         self.device.set_poison(on);
+    }
+
+    /// Checks the values that passes write, or no longer does, which is the default. After each pass of a frame that
+    /// [`execute`](crate::Compiled::execute) records, the GPU counts texels that are NaN, infinite or outside of a range;
+    /// [`Executed::take_values`](crate::Executed::take_values) returns the report: which pass wrote the first of them, where, and what it
+    /// read there.
+    ///
+    /// Frames are drawn as for a [capture](crate::Compiled::execute_captured), with compute passes in between. The image is the same.
+    ///
+    /// ```
+    /// use shadowgraph_core::{Contents, Format, Graph, TextureDesc, ValueCheck};
+    /// # use shadowgraph_core::wgpu;
+    /// # let (device, queue) = wgpu::Device::noop(&Default::default());
+    /// let mut graph = Graph::new();
+    /// graph.check_values(Some(ValueCheck::default().range("light", 0.0..=1e5)));
+    /// let mut frame = graph.frame();
+    /// let mut light = frame.create_texture("light", TextureDesc::d2(64, 64, Format::Rgba16Float));
+    /// frame.render_pass("draw").color(&mut light, Contents::clear_color([0.5; 4]));
+    /// frame.export_texture(&light);
+    /// let mut encoder = device.create_command_encoder(&Default::default());
+    /// let mut executed = graph.compile(frame)?.execute(&mut graph, &device, &mut encoder)?;
+    /// queue.submit([encoder.finish()]);
+    /// if let Some(values) = executed.take_values() {
+    ///     print!("{}", values.wait(&device)?.to_text(executed.plan())); // `draw` wrote `light` v1: 3 texels NaN ...
+    /// }
+    /// # Ok::<(), shadowgraph_core::Error>(())
+    /// ```
+    #[cfg(feature = "gpu")]
+    pub fn check_values(&mut self, check: Option<crate::values::ValueCheck>) {
+        self.values.check = check;
     }
 
     /// Returns the bytes of all transient textures and buffers and all histories that the graph holds, without the

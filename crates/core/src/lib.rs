@@ -75,6 +75,7 @@ mod test_device;
 #[cfg(feature = "gpu")]
 mod timer;
 mod times;
+mod values;
 
 pub use access::{Access, ClearValue, Contents};
 #[cfg(feature = "gpu")]
@@ -91,7 +92,9 @@ pub use device::device_is_lost;
 pub use dump::{JSON_SCHEMA, describe};
 pub use error::Error;
 #[cfg(feature = "gpu")]
-pub use execute::{Executed, FailedFrame, FrameCapture, PendingCapture, ReadBack, ReadBackRequest};
+pub use execute::{
+    Executed, FailedFrame, FrameCapture, PendingCapture, PendingValues, ReadBack, ReadBackRequest,
+};
 pub use frame::{Frame, History};
 pub use graph::{Graph, PlanCounts};
 #[cfg(feature = "gpu")]
@@ -119,6 +122,7 @@ pub use suggest::{closest_name, did_you_mean};
 #[cfg(feature = "gpu")]
 pub use timer::Timer;
 pub use times::{PassTime, TimeHistory, TimeStats, TimeSummary};
+pub use values::{BadValues, Texel, ValueCheck, ValueReport};
 #[cfg(feature = "gpu")]
 pub use wgpu;
 pub use wgpu_types::{BufferUsages, TextureUsages};

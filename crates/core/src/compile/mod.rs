@@ -1,12 +1,12 @@
 //! Compiles declarations to a plan, by small pure functions.
 
 mod alias;
-#[cfg(feature = "gpu")]
-mod capture;
 mod coverage;
 mod csr;
 mod cull;
 mod hazards;
+#[cfg(feature = "gpu")]
+mod keep;
 mod lifetime;
 mod merge;
 mod ops;
@@ -17,7 +17,7 @@ mod validate;
 mod tests;
 
 #[cfg(feature = "gpu")]
-pub(crate) use capture::capturing;
+pub(crate) use keep::keeping;
 #[cfg(feature = "gpu")]
 pub(crate) use validate::copy_extent;
 

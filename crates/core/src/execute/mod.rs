@@ -12,6 +12,7 @@ mod render;
 mod shader_pass;
 mod stepwise;
 mod threads;
+mod values;
 
 #[cfg(test)]
 mod tests;
@@ -19,6 +20,8 @@ mod tests;
 pub use capture::{FrameCapture, PendingCapture};
 pub use checked::FailedFrame;
 pub use read_back::{ReadBack, ReadBackRequest};
+pub use values::PendingValues;
+pub(crate) use values::ValueOption;
 
 use crate::compiled::Compiled;
 use crate::error::Error;
@@ -36,6 +39,8 @@ pub struct Executed {
     exports: Vec<(ResourceId, PhysicalResource)>,
     /// Results by request; `None` once taken.
     read_backs: Vec<Option<ReadBack>>,
+    /// The check of values, if the graph has one; `None` once taken.
+    values: Option<PendingValues>,
 }
 
 impl Executed {
@@ -77,10 +82,33 @@ impl Executed {
         self.read_backs.get_mut(request.index as usize).filter(|_| same_frame)?.take()
     }
 
+    /// Takes the check of values of the frame, if [the graph checks them](Graph::check_values); `None` if it was taken before.
+    pub fn take_values(&mut self) -> Option<PendingValues> {
+        self.values.take()
+    }
+
     fn export(&self, version: Version) -> Option<&PhysicalResource> {
         let same_frame = version.frame == self.frame;
         let export = self.exports.iter().find(|(id, _)| same_frame && *id == version.resource);
         export.map(|(_, object)| object)
+    }
+}
+
+impl Graph {
+    fn record(
+        &mut self,
+        compiled: Compiled<'_>,
+        device: &wgpu::Device,
+        encoder: &mut wgpu::CommandEncoder,
+        timer: Option<&mut Timer>,
+    ) -> Result<Executed, Error> {
+        match self.values.check {
+            None => record::record(compiled, &mut self.device, device, encoder, timer, None),
+            Some(_) => {
+                let graph = (&mut self.device, &mut self.values);
+                values::record_checked(compiled, graph, device, encoder, timer)
+            }
+        }
     }
 }
 
@@ -97,7 +125,7 @@ impl Compiled<'_> {
         device: &wgpu::Device,
         encoder: &mut wgpu::CommandEncoder,
     ) -> Result<Executed, Error> {
-        record::record(self, &mut graph.device, device, encoder, None, None)
+        graph.record(self, device, encoder, None)
     }
 
     /// Records the frame like [`execute`](Self::execute) and measures every pass; see [`Timer`].
@@ -111,7 +139,7 @@ impl Compiled<'_> {
         encoder: &mut wgpu::CommandEncoder,
         timer: &mut Timer,
     ) -> Result<Executed, Error> {
-        record::record(self, &mut graph.device, device, encoder, Some(timer), None)
+        graph.record(self, device, encoder, Some(timer))
     }
 
     /// Records the frame on `threads` threads, each into a separate encoder, and returns the command buffers in the order

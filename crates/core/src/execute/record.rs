@@ -122,7 +122,13 @@ impl Prepared {
             .collect();
         self.resolved.release(pool);
         pool.end_frame(&compiled.plan, &compiled.frame.work.histories);
-        Executed { frame: compiled.frame.id(), exports, read_backs, plan: compiled.plan.clone() }
+        Executed {
+            frame: compiled.frame.id(),
+            exports,
+            read_backs,
+            values: None,
+            plan: compiled.plan.clone(),
+        }
     }
 }
 

@@ -76,3 +76,107 @@ fn depth(@builtin(position) position: vec4f) -> @builtin(frag_depth) f32 {
 fn filtered(@builtin(position) position: vec4f) -> @location(0) vec4f {
     return textureSampleLevel(source, bilinear, position.xy / vec2f(target_size), 0.0);
 }
+
+//: values
+// Counts texels of a texture with values that they should not have, and copies single texels. TEXTURE, LOAD and SAMPLES are
+// replaced for each kind of texture.
+struct Part {
+    // The first texel that was written, and their number along each side.
+    written: vec4u,
+    // The size of the mip level that was written, and of that of `image`.
+    written_size: vec2u,
+    size: vec2u,
+    layers: u32,
+    channels: u32,
+    // The first word of the record of what was written: see RECORD_*.
+    record: u32,
+    // The first word that `copy` writes: x, y, layer, and the bits of four channels.
+    copied: u32,
+    // The values that are allowed.
+    low: f32,
+    high: f32,
+    padding: vec2u,
+}
+
+@group(0) @binding(0) var image: TEXTURE;
+@group(0) @binding(1) var<storage, read_write> words: array<atomic<u32>>;
+@group(0) @binding(2) var<uniform> part: Part;
+
+const RECORD_NAN: u32 = 0u;
+const RECORD_INFINITE: u32 = 1u;
+const RECORD_OUTSIDE: u32 = 2u;
+// The largest u32 minus the first texel's number; 0: there is none.
+const RECORD_FIRST: u32 = 3u;
+
+const GOOD: u32 = 3u;
+
+// Compared as bits, as compilers may assume that there are no NaN.
+fn kind_of(bits: vec4u) -> u32 {
+    var kind = GOOD;
+    for (var channel = 0u; channel < part.channels; channel++) {
+        let magnitude = bits[channel] & 0x7fffffffu;
+        if magnitude > 0x7f800000u {
+            kind = min(kind, RECORD_NAN);
+        } else if magnitude == 0x7f800000u {
+            kind = min(kind, RECORD_INFINITE);
+        } else {
+            let value = bitcast<f32>(bits[channel]);
+            if value < part.low || value > part.high {
+                kind = min(kind, RECORD_OUTSIDE);
+            }
+        }
+    }
+    return kind;
+}
+
+fn load(at: vec3u, sample: u32) -> vec4u {
+    return LOAD;
+}
+
+// The bits of the texel, of its worst sample.
+fn worst(at: vec3u) -> vec4u {
+    var bits = load(at, 0u);
+    for (var sample = 1u; sample < SAMPLES; sample++) {
+        let other = load(at, sample);
+        if kind_of(other) < kind_of(bits) {
+            bits = other;
+        }
+    }
+    return bits;
+}
+
+@compute @workgroup_size(8, 8)
+fn count(@builtin(global_invocation_id) id: vec3u) {
+    if any(id.xy >= part.written.zw) {
+        return;
+    }
+    let kind = kind_of(worst(vec3u(part.written.xy + id.xy, id.z)));
+    if kind != GOOD {
+        atomicAdd(&words[part.record + kind], 1u);
+        let number = (id.z * part.written.w + id.y) * part.written.z + id.x;
+        atomicMax(&words[part.record + RECORD_FIRST], 0xffffffffu - number);
+    }
+}
+
+// Copies the texel at the place of the first one of the record.
+@compute @workgroup_size(1)
+fn copy() {
+    let first = atomicLoad(&words[part.record + RECORD_FIRST]);
+    if first == 0u {
+        return;
+    }
+    let number = 0xffffffffu - first;
+    let row = number / part.written.z;
+    let place = part.written.xy + vec2u(number % part.written.z, row % part.written.w);
+    let at = vec3u(
+        min(place * part.size / part.written_size, part.size - 1u),
+        min(row / part.written.w, part.layers - 1u),
+    );
+    let bits = worst(at);
+    for (var i = 0u; i < 3u; i++) {
+        atomicStore(&words[part.copied + i], at[i]);
+    }
+    for (var i = 0u; i < 4u; i++) {
+        atomicStore(&words[part.copied + 3u + i], bits[i]);
+    }
+}

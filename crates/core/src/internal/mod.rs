@@ -1,15 +1,17 @@
 //! Draws of the graph itself, for what wgpu has no command for: clearing a region of an attachment, and resampling the
-//! contents of a texture into one of another size.
+//! contents of a texture into one of another size; and checks of values.
 
 mod region_clear;
 mod resample;
 #[cfg(test)]
 mod tests;
+mod value_check;
 
 pub(crate) use region_clear::{RegionClear, RegionClears, Targets};
 #[cfg(test)]
 use resample::ResampleError;
 pub(crate) use resample::{Resampler, can_resample};
+pub(crate) use value_check::{ImageKind, ImagePart, RECORD_WORDS, TEXEL_WORDS, ValueChecks, ValueStep};
 
 const SOURCE: &str = include_str!("internal.wgsl");
 

@@ -6,7 +6,7 @@ use super::Executed;
 use super::read_back::{ReadBack, TexturePart};
 use super::record::record;
 use crate::capture::{SnapshotTile, TextureSnapshot};
-use crate::compile::capturing;
+use crate::compile::keeping;
 use crate::compiled::Compiled;
 use crate::context::Recording;
 use crate::declaration::AccessDecl;
@@ -91,7 +91,7 @@ impl Compiled<'_> {
         encoder: &mut wgpu::CommandEncoder,
     ) -> Result<(Executed, PendingCapture), Error> {
         let plan = self.plan.clone();
-        self.plan = Arc::new(capturing(&plan));
+        self.plan = Arc::new(keeping(&plan, wgpu::TextureUsages::COPY_SRC));
         let mut capture = PendingCapture { snapshots: Vec::new(), buffers: Vec::new() };
         let mut hook = |recording: &Recording<'_>, pass: PassId, encoder: &mut wgpu::CommandEncoder| {
             capture.after_pass(recording, pass, encoder)

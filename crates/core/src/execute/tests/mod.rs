@@ -19,5 +19,6 @@ mod reuse;
 mod threads;
 mod times;
 mod truth;
+mod values;
 
 use gpu::{Compute, Draw};

@@ -1,4 +1,4 @@
-//! A variant of a plan that keeps all contents, for captures.
+//! A variant of a plan that keeps all contents, for captures and checks of values.
 
 use super::{alias, lifetime, ops};
 use crate::desc::ResourceDesc;
@@ -6,8 +6,8 @@ use crate::plan::{MergeReason, Plan, StoreAction, StructureId};
 use wgpu_types::{BufferUsages, TextureUsages};
 
 /// Plans the same passes in the same order, but without merging, with every attachment stored, and each resource in its
-/// own memory that can be copied from. Passes read the same contents as in the original plan.
-pub(crate) fn capturing(plan: &Plan) -> Plan {
+/// own memory that can be copied from. Passes read the same contents as in the original plan. Textures have the usages `textures` too.
+pub(crate) fn keeping(plan: &Plan, textures: TextureUsages) -> Plan {
     let decl = plan.decl.clone();
     let steps: Vec<(u32, u32)> =
         (0..plan.order.len() as u32).map(|position| (position, position + 1)).collect();
@@ -18,7 +18,7 @@ pub(crate) fn capturing(plan: &Plan) -> Plan {
         own.steps = own.steps.map(|(first, _)| (first, last));
         own.only_drawn = false;
         match resource.desc {
-            ResourceDesc::Texture(_) => own.texture_usage |= TextureUsages::COPY_SRC,
+            ResourceDesc::Texture(_) => own.texture_usage |= textures,
             ResourceDesc::Buffer(_) => own.buffer_usage |= BufferUsages::COPY_SRC,
         }
     }

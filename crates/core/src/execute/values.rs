@@ -1,0 +1,279 @@
+//! Checks of the values that passes write, after each pass.
+
+use super::Executed;
+use super::read_back::ReadBack;
+use super::record::record;
+use crate::compile::keeping;
+use crate::compiled::Compiled;
+use crate::context::Recording;
+use crate::declaration::{AccessDecl, Declaration};
+use crate::desc::{ResourceDesc, TextureDesc};
+use crate::error::Error;
+use crate::handle::{PassId, ResourceId};
+use crate::internal::{ImageKind, ImagePart, RECORD_WORDS, TEXEL_WORDS, ValueChecks, ValueStep};
+use crate::plan::Plan;
+use crate::pool::Pool;
+use crate::subresource::Aspect;
+use crate::timer::Timer;
+use crate::values::{BadValues, Texel, ValueCheck, ValueReport};
+use std::ops::{Range, RangeInclusive};
+use std::sync::Arc;
+use wgpu_types::TextureUsages;
+
+/// The option of a graph, with the pipelines that it uses.
+#[derive(Default)]
+pub(crate) struct ValueOption {
+    pub(crate) check: Option<ValueCheck>,
+    checks: Option<ValueChecks>,
+}
+
+/// The check of a frame that is on its way to the CPU.
+#[must_use = "only `wait` returns the report"]
+pub struct PendingValues {
+    records: Vec<Record>,
+    unchecked: Vec<(ResourceId, String)>,
+    words: Option<ReadBack>,
+}
+
+impl PendingValues {
+    /// Waits for the submitted frame and returns what was found.
+    ///
+    /// # Errors
+    /// When the device is lost, or the encoder was not submitted.
+    pub fn wait(self, device: &wgpu::Device) -> Result<ValueReport, Error> {
+        let bytes = self.words.map_or_else(|| Ok(Vec::new()), |words| words.wait(device))?;
+        let words: Vec<u32> = bytes.as_chunks().0.iter().map(|&bytes| u32::from_le_bytes(bytes)).collect();
+        let bad = self.records.iter().filter_map(|record| record.decode(&words)).collect();
+        Ok(ValueReport { bad, unchecked: self.unchecked })
+    }
+}
+
+/// A mip level of a texture that a pass has written.
+struct Record {
+    pass: PassId,
+    /// The first of its words.
+    first_word: u32,
+    range: RangeInclusive<f32>,
+    written: Image,
+    inputs: Vec<Image>,
+}
+
+/// A mip level of a texture, and the part of it that is accessed.
+#[derive(Clone)]
+struct Image {
+    texture: ResourceId,
+    version: u32,
+    kind: ImageKind,
+    mip: u32,
+    layers: Range<u32>,
+    /// The first texel, and their number along each side.
+    rect: [u32; 4],
+    size: [u32; 2],
+    channels: u32,
+}
+
+pub(super) fn record_checked(
+    mut compiled: Compiled<'_>,
+    (pool, option): (&mut Pool, &mut ValueOption),
+    device: &wgpu::Device,
+    encoder: &mut wgpu::CommandEncoder,
+    timer: Option<&mut Timer>,
+) -> Result<Executed, Error> {
+    let check = option.check.clone().unwrap_or_default();
+    if option.checks.as_ref().is_some_and(|checks| !checks.is_of(device)) {
+        option.checks = None;
+    }
+    let checks = option.checks.get_or_insert_with(|| ValueChecks::new(device));
+    let plan = compiled.plan.clone();
+    compiled.plan = Arc::new(keeping(&plan, TextureUsages::TEXTURE_BINDING));
+    let (records, words) = records(&plan, &check);
+    let words = (words > 0).then(|| {
+        device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("value check"),
+            size: 4 * u64::from(words),
+            usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC,
+            mapped_at_creation: false,
+        })
+    });
+    let mut unchecked: Vec<(ResourceId, String)> = Vec::new();
+    let mut hook = |recording: &Recording<'_>, pass: PassId, encoder: &mut wgpu::CommandEncoder| {
+        let Some(words) = &words else { return Ok(()) };
+        for record in records.iter().filter(|record| record.pass == pass) {
+            if let Err(reason) = record.record(recording, checks, words, encoder)
+                && !unchecked.iter().any(|(texture, _)| *texture == record.written.texture)
+            {
+                unchecked.push((record.written.texture, reason));
+            }
+        }
+        Ok(())
+    };
+    let mut executed = record(compiled, pool, device, encoder, timer, Some(&mut hook))?.with_plan(plan);
+    let read =
+        |words: &wgpu::Buffer| ReadBack::buffer(device, encoder, "value check", words, 0..words.size());
+    let words = words.as_ref().map(read).transpose()?;
+    executed.values = Some(PendingValues { records, unchecked, words });
+    Ok(executed)
+}
+
+/// Returns what is checked after each pass, in their order, and the number of words that it needs.
+fn records(plan: &Plan, check: &ValueCheck) -> (Vec<Record>, u32) {
+    let decl = &plan.decl;
+    let mut next_word = 0;
+    let mut records = Vec::new();
+    for &pass in &plan.order {
+        let accesses = decl.accesses(pass);
+        let inputs: Vec<Image> = accesses
+            .iter()
+            .filter(|access| !access.contents.writes())
+            .filter_map(|access| images(decl, access, access.version).into_iter().next())
+            .collect();
+        for access in accesses.iter().filter(|access| access.contents.writes()) {
+            for written in images(decl, access, access.version + 1) {
+                let format = match decl.resource(access.resource).desc {
+                    ResourceDesc::Texture(desc) => desc.format,
+                    ResourceDesc::Buffer(_) => continue,
+                };
+                let declared = check.range_of(decl.resource_name(access.resource));
+                let range = declared.clone().unwrap_or(match format.is_depth_stencil_format() {
+                    true => 0.0..=1.0,
+                    false => f32::MIN..=f32::MAX,
+                });
+                // Formats without a float never hold NaN.
+                let can_be_bad = declared.is_some() || is_float(format);
+                if written.kind.has_floats() && can_be_bad {
+                    let (first_word, inputs) = (next_word, inputs.clone());
+                    next_word += RECORD_WORDS + TEXEL_WORDS * (1 + inputs.len() as u32);
+                    records.push(Record { pass, first_word, range, written, inputs });
+                }
+            }
+        }
+    }
+    (records, next_word)
+}
+
+/// Returns whether texels of a format can be NaN, infinite, or depth outside of 0 to 1.
+fn is_float(format: wgpu::TextureFormat) -> bool {
+    use wgpu::TextureFormat as F;
+    matches!(
+        format,
+        F::R16Float
+            | F::Rg16Float
+            | F::Rgba16Float
+            | F::R32Float
+            | F::Rg32Float
+            | F::Rgba32Float
+            | F::Rg11b10Ufloat
+            | F::Depth32Float
+            | F::Depth32FloatStencil8
+    )
+}
+
+/// Returns each mip level that an access touches; none for buffers, the stencil, and textures that shaders cannot read.
+fn images(decl: &Declaration, access: &AccessDecl, version: u32) -> Vec<Image> {
+    let ResourceDesc::Texture(desc) = decl.resource(access.resource).desc else { return Vec::new() };
+    let part = decl.subresource(access);
+    let kind = ImageKind::of(desc.format, desc.dimension, desc.samples);
+    let Some(kind) = kind.filter(|_| part.aspect != Aspect::Stencil) else { return Vec::new() };
+    let (first, end) = part.mips.unwrap_or((0, desc.mip_levels));
+    (first..end)
+        .map(|mip| {
+            let size = desc.size.mip_level_size(mip, desc.dimension);
+            let all = [0, 0, size.width, size.height];
+            let rect = part.rect.map_or(all, |rect| [rect.x, rect.y, rect.width, rect.height]);
+            let channels =
+                if desc.format.has_depth_aspect() { 1 } else { u32::from(desc.format.components()) };
+            let layers = layers(&desc, part.layers, mip);
+            let size = [size.width, size.height];
+            Image { texture: access.resource, version, kind, mip, layers, rect, size, channels }
+        })
+        .collect()
+}
+
+fn layers(desc: &TextureDesc, part: Option<(u32, u32)>, mip: u32) -> Range<u32> {
+    let all = match desc.dimension {
+        wgpu_types::TextureDimension::D3 => (desc.size.depth_or_array_layers >> mip).max(1),
+        _ => desc.size.depth_or_array_layers,
+    };
+    let (first, end) = part.unwrap_or((0, all));
+    first..end.min(all)
+}
+
+impl Record {
+    /// Records the steps of the check. An error is the reason why it cannot be checked.
+    fn record(
+        &self,
+        recording: &Recording<'_>,
+        checks: &mut ValueChecks,
+        words: &wgpu::Buffer,
+        encoder: &mut wgpu::CommandEncoder,
+    ) -> Result<(), String> {
+        let view = self.written.view(recording)?;
+        let label = Some("value check");
+        let mut pass =
+            encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label, timestamp_writes: None });
+        let mut step = |image: &Image, view: &wgpu::TextureView, step, copied| {
+            let part = self.part(image, copied);
+            checks.record(&mut pass, (image.kind, view), words, (step, &part));
+        };
+        step(&self.written, &view, ValueStep::Count, 0);
+        let first_texel = self.first_word + RECORD_WORDS;
+        step(&self.written, &view, ValueStep::Copy, first_texel);
+        for (input, index) in self.inputs.iter().zip(1..) {
+            // A texture without the usage has no value in the report.
+            if let Ok(view) = input.view(recording) {
+                step(input, &view, ValueStep::Copy, first_texel + TEXEL_WORDS * index);
+            }
+        }
+        Ok(())
+    }
+
+    fn part(&self, image: &Image, copied: u32) -> ImagePart {
+        ImagePart {
+            written: self.written.rect,
+            written_size: self.written.size,
+            size: image.size,
+            layers: image.layers.end - image.layers.start,
+            channels: image.channels,
+            record: self.first_word,
+            copied,
+            range: self.range.clone(),
+        }
+    }
+
+    /// Returns the finding of the record; `None` if all values are good.
+    fn decode(&self, words: &[u32]) -> Option<BadValues> {
+        let own = words.get(self.first_word as usize..)?;
+        let &[nan, infinite, outside, found] = own.first_chunk::<4>()?;
+        if found == 0 {
+            return None;
+        }
+        let mut texels = own[RECORD_WORDS as usize..].chunks_exact(TEXEL_WORDS as usize);
+        let first = self.written.texel(texels.next()?);
+        let inputs = self.inputs.iter().zip(texels).map(|(input, texel)| input.texel(texel)).collect();
+        let range = self.range.clone();
+        Some(BadValues { pass: self.pass, nan, infinite, outside, range, first, inputs })
+    }
+}
+
+impl Image {
+    fn view(&self, recording: &Recording<'_>) -> Result<wgpu::TextureView, String> {
+        let texture = recording.texture(self.texture).map_err(|error| error.to_string())?;
+        if !texture.usage().contains(TextureUsages::TEXTURE_BINDING) {
+            return Err("it lacks the usage TEXTURE_BINDING".into());
+        }
+        Ok(self.kind.view(texture, self.mip, &self.layers))
+    }
+
+    /// Returns a copied texel.
+    fn texel(&self, words: &[u32]) -> Texel {
+        let (at, bits) = words.split_at(3);
+        let value = bits.iter().take(self.channels as usize).map(|&bits| self.kind.decode(bits)).collect();
+        Texel {
+            texture: self.texture,
+            version: self.version,
+            mip: self.mip,
+            at: [at[0], at[1], self.layers.start + at[2]],
+            value,
+        }
+    }
+}
