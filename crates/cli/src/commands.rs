@@ -8,6 +8,7 @@ use super::failure::Failure;
 use super::frame_files::FrameFiles;
 use super::progress::Progress;
 use super::report;
+use super::values::{self, Findings};
 use crate::args::options::Options;
 use shadowgraph::core::Timer;
 use shadowgraph::options::{Aov, CameraChoice, OptionError};
@@ -37,14 +38,20 @@ impl Input {
 pub(crate) fn render(args: &RenderArgs, registry: &Registry) -> Result<(), Failure> {
     check_output(&args.output)?;
     let files = FrameFiles::parse(&args.output)?;
-    let input = input(&args.draw, registry)?;
+    let ranges = args.check_values.as_deref();
+    let check_values = ranges.map(values::parse).transpose()?;
+    let mut input = input(&args.draw, registry)?;
+    input.options.check_values = check_values;
     let gpu = Gpu::open(&input.options.adapter).map_err(Failure::no_device)?;
     let Options { aov, background, timings, .. } = input.options.clone();
+    let mut findings = Findings::default();
     let [width, height] = view_options(&input)?.size_px;
     let FramesArgs { count, fps } = args.frames;
-    let drawn = draw_frames(&gpu, input, args.frames, &mut |number, image| {
+    let drawn = draw_frames(&gpu, input, args.frames, &mut |number, frame| {
+        ranges.map_or(Ok(()), |ranges| values::check_names(ranges, frame))?;
+        findings.add(number, frame);
         let Some(file) = files.file(number, count) else { return Ok(()) };
-        let (pixels, bytes) = file_pixels(&aov, background, image);
+        let (pixels, bytes) = file_pixels(&aov, background, &frame.image);
         Ok(write_png(&file, width, height, pixels, &bytes)?)
     })?;
     let (file, adapter) = (args.output.display(), &gpu.adapter.name);
@@ -59,11 +66,11 @@ pub(crate) fn render(args: &RenderArgs, registry: &Registry) -> Result<(), Failu
     if timings {
         console::print(&report::times(&drawn.times, &gpu.adapter))?;
     }
-    Ok(())
+    if ranges.is_some() { findings.finish(count) } else { Ok(()) }
 }
 
-/// Takes the image of a frame and the frame's number.
-type Keep<'k> = dyn FnMut(u32, RenderedImage) -> Result<(), Failure> + 'k;
+/// Takes a frame and its number.
+type Keep<'k> = dyn FnMut(u32, &RenderedFrame) -> Result<(), Failure> + 'k;
 
 /// Draws frames while the animations play, and returns the last.
 pub(super) fn draw_frames(
@@ -83,7 +90,7 @@ pub(super) fn draw_frames(
     let drawn = renderer.draw_timed(gpu, &view, timer.as_mut())?;
     report::unshadowed(&drawn.unshadowed).iter().for_each(|line| console::warning(line));
     drawn.counts.shadow_warning.iter().for_each(|line| console::warning(line));
-    keep(frames.count - 1, drawn.image.clone())?;
+    keep(frames.count - 1, &drawn)?;
     Ok(drawn)
 }
 
@@ -99,11 +106,12 @@ pub(super) fn play(
     let mut view = tracked(&base, &input.options, input.options.time.0)?;
     let shadow_camera = shadow_camera(&input)?;
     let mut renderer = input.options.renderer(gpu, input.scene, &input.camera)?;
+    renderer.graph().check_values(input.options.check_values);
     renderer.set_shadow_camera(shadow_camera);
     renderer.set_overlay(gpu, input.options.overlay)?;
     let FramesArgs { count, fps } = frames;
     for number in 1..count {
-        keep(number - 1, renderer.draw(gpu, &view)?.image)?;
+        keep(number - 1, &renderer.draw(gpu, &view)?)?;
         drawing.set(&format!("frame {number} of {count}"), number as f32 / count as f32);
         let time_s = input.options.time.0 + f64::from(number) / fps;
         view.camera = pose(renderer.scene_mut(), &input.options, time_s, view.camera)?;
@@ -236,7 +244,7 @@ pub(crate) fn shadow_camera(input: &Input) -> Result<Option<Camera>, Failure> {
 }
 
 /// Returns the channels of an image that are written to the file.
-fn file_pixels(aov: &Aov, background: Background, image: RenderedImage) -> (Pixels, Vec<u8>) {
+fn file_pixels(aov: &Aov, background: Background, image: &RenderedImage) -> (Pixels, Vec<u8>) {
     let pixels = image.rgba8.chunks_exact(4);
     match aov {
         Aov::Visibility(_) => (Pixels::GreyAlpha, pixels.flat_map(|p| [p[0], p[3]]).collect()),

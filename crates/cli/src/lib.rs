@@ -18,6 +18,7 @@ mod nodes;
 mod noise;
 mod progress;
 mod report;
+mod values;
 #[cfg(feature = "view")]
 mod view;
 

@@ -109,7 +109,7 @@ impl Graph {
     /// [`Executed::take_values`](crate::Executed::take_values) returns the report: which pass wrote the first of them, where, and what it
     /// read there.
     ///
-    /// Frames are drawn as for a [capture](crate::Compiled::execute_captured), with compute passes in between. The image is the same.
+    /// It costs a lot. Frames are recorded as for a [capture](crate::Compiled::execute_captured), on one thread, with compute passes in between. The image is the same.
     ///
     /// ```
     /// use shadowgraph_core::{Contents, Format, Graph, TextureDesc, ValueCheck};

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use shadowgraph_core::{PassTime, Plan};
+use shadowgraph_core::{PassTime, Plan, ValueReport};
 use shadowgraph_scene::{linear_from_srgb, srgb_from_linear};
 use shadowgraph_shadows::Unshadowed;
 
@@ -49,6 +49,8 @@ pub struct RenderedFrame {
     pub unshadowed: Vec<Unshadowed>,
     /// What the GPU has counted.
     pub counts: FrameCounts,
+    /// Values that textures should not have, if [the graph checks them](shadowgraph_core::Graph::check_values).
+    pub values: Option<ValueReport>,
 }
 
 /// What the GPU counts in a frame.

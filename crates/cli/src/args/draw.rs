@@ -184,6 +184,7 @@ impl DrawArgs {
             shadow_camera: shadow_camera.map_err(|error| OptionError { option: "shadow_camera", ..error })?,
             adapter: or_default(self.adapter.as_deref())?,
             timings: self.timings,
+            check_values: None,
         })
     }
 

@@ -69,6 +69,10 @@ pub(crate) struct RenderArgs {
     /// frames are written
     #[arg(short, long, value_name = "FILE", default_value = "out/render.png")]
     pub(crate) output: PathBuf,
+    /// After each pass, count texels that are NaN, infinite or, of the textures named here, outside of a range; the exit code is 1 if
+    /// there are any. The first pass that wrote one is named, with the pixel and what the pass read there
+    #[arg(long, value_name = "TEXTURE=LOW..HIGH,...", num_args = 0..=1, require_equals = true, default_missing_value = "")]
+    pub(crate) check_values: Option<String>,
 }
 
 /// `shadowgraph dump`

@@ -1,5 +1,6 @@
 //! The values of a drawing command's options.
 
+use shadowgraph::core::ValueCheck;
 use shadowgraph::options::{
     AdapterChoice, AnimationChoice, AnimationTime, Aov, CameraChoice, GroundChoice, ShadowDistance, Size,
     SunChoice,
@@ -49,6 +50,8 @@ pub(crate) struct Options {
     pub(crate) adapter: AdapterChoice,
     /// Whether times per pass are measured.
     pub(crate) timings: bool,
+    /// The check of the values that passes write.
+    pub(crate) check_values: Option<ValueCheck>,
 }
 
 impl Options {
@@ -96,6 +99,7 @@ impl Default for Options {
             shadow_camera: None,
             adapter: AdapterChoice::default(),
             timings: false,
+            check_values: None,
         }
     }
 }

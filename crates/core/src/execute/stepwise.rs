@@ -46,6 +46,12 @@ impl Compiled<'_> {
         device: &wgpu::Device,
         queue: &wgpu::Queue,
     ) -> Result<Executed, Error> {
+        if graph.checks_values() {
+            let mut encoder = device.create_command_encoder(&Default::default());
+            let executed = self.execute(graph, device, &mut encoder)?;
+            queue.submit([encoder.finish()]);
+            return Ok(executed);
+        }
         let pool = &mut graph.device;
         let submit = |buffer| {
             queue.submit([buffer]);

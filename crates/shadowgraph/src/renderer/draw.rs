@@ -72,9 +72,10 @@ impl Renderer {
             let texels = executed.read_back(request).ok_or_else(read_back_error)?;
             let counts = counts.take(&mut executed).wait(&gpu.device)?;
             let image = RenderedImage { size_px: options.size_px, rgba8: texels.wait(&gpu.device)? };
+            let values = executed.take_values().map(|values| values.wait(&gpu.device)).transpose()?;
             let (plan, times) = (executed.shared_plan(), Vec::new());
             let unshadowed = output.unshadowed;
-            Ok((RenderedFrame { image, plan, times, unshadowed, counts }, output.shadow_buffers))
+            Ok((RenderedFrame { image, plan, times, unshadowed, counts, values }, output.shadow_buffers))
         });
         self.count_frame();
         drawn
