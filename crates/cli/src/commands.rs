@@ -106,7 +106,7 @@ pub(super) fn play(
     let mut view = tracked(&base, &input.options, input.options.time.0)?;
     let shadow_camera = shadow_camera(&input)?;
     let mut renderer = input.options.renderer(gpu, input.scene, &input.camera)?;
-    renderer.graph().check_values(input.options.check_values);
+    renderer.graph().check_values(input.options.check_values.clone());
     renderer.set_shadow_camera(shadow_camera);
     renderer.set_overlay(gpu, input.options.overlay)?;
     let FramesArgs { count, fps } = frames;

@@ -1,7 +1,7 @@
 //! `--check-values`: what is checked, and what is reported.
 
 use shadowgraph::RenderedFrame;
-use shadowgraph::core::ValueCheck;
+use shadowgraph::core::{ResourceDesc, ValueCheck};
 use shadowgraph::options::OptionError;
 
 use super::console;
@@ -32,7 +32,11 @@ pub(crate) fn parse(text: &str) -> Result<ValueCheck, OptionError> {
 /// # Errors
 /// A name that no texture has.
 pub(crate) fn check_names(text: &str, frame: &RenderedFrame) -> Result<(), OptionError> {
-    let names = || frame.plan.resources().map(|(_, texture)| texture.name);
+    let names = || {
+        let textures =
+            frame.plan.resources().filter(|(_, found)| matches!(found.desc, ResourceDesc::Texture(_)));
+        textures.map(|(_, texture)| texture.name)
+    };
     for part in text.split(',') {
         let Some((texture, _)) = part.rsplit_once('=') else { continue };
         if !names().any(|name| name == texture) {

@@ -54,7 +54,7 @@ pub struct BadValues {
     pub range: RangeInclusive<f32>,
     /// The first of these texels, row by row and layer by layer.
     pub first: Texel,
-    /// Texels at the same place of all textures that the pass read.
+    /// Texels at the same place of textures of the same shape that the pass read: for images of half the size, at half the coordinates.
     pub inputs: Vec<Texel>,
 }
 
@@ -121,7 +121,12 @@ impl Texel {
         let [x, y, layer] = self.at;
         let layers = if layer > 0 { format!(", layer {layer}") } else { String::new() };
         let mip = if self.mip > 0 { format!(", mip {}", self.mip) } else { String::new() };
-        let values: Vec<String> = self.value.iter().map(f64::to_string).collect();
+        // Integers are exact; others were `f32`.
+        let number = |&value: &f64| match value.fract() == 0.0 {
+            true => value.to_string(),
+            false => (value as f32).to_string(),
+        };
+        let values: Vec<String> = self.value.iter().map(number).collect();
         let name = plan.resource(self.texture).name;
         format!("`{name}` v{} at {x},{y}{layers}{mip}: {}", self.version, values.join(" "))
     }

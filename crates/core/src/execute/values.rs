@@ -141,7 +141,9 @@ fn records(plan: &Plan, check: &ValueCheck) -> (Vec<Record>, u32) {
                 // Formats without a float never hold NaN.
                 let can_be_bad = declared.is_some() || is_float(format);
                 if written.kind.has_floats() && can_be_bad {
-                    let (first_word, inputs) = (next_word, inputs.clone());
+                    let same_shape = |input: &&Image| input.has_shape_of(&written);
+                    let inputs: Vec<Image> = inputs.iter().filter(same_shape).cloned().collect();
+                    let first_word = next_word;
                     next_word += RECORD_WORDS + TEXEL_WORDS * (1 + inputs.len() as u32);
                     records.push(Record { pass, first_word, range, written, inputs });
                 }
@@ -256,6 +258,14 @@ impl Record {
 }
 
 impl Image {
+    /// Returns whether the sides have the same ratio, but for rounding: pixels correspond.
+    fn has_shape_of(&self, other: &Self) -> bool {
+        let ([width, height], [other_width, other_height]) = (self.size, other.size);
+        let [across, down] =
+            [(width, other_height), (height, other_width)].map(|(a, b)| f64::from(a) * f64::from(b));
+        (across - down).abs() <= 0.02 * across.max(down)
+    }
+
     fn view(&self, recording: &Recording<'_>) -> Result<wgpu::TextureView, String> {
         let texture = recording.texture(self.texture).map_err(|error| error.to_string())?;
         if !texture.usage().contains(TextureUsages::TEXTURE_BINDING) {
