@@ -93,7 +93,7 @@ pub use dump::{JSON_SCHEMA, describe};
 pub use error::Error;
 #[cfg(feature = "gpu")]
 pub use execute::{
-    Executed, FailedFrame, FrameCapture, PendingCapture, PendingValues, ReadBack, ReadBackRequest,
+    Contained, Executed, FailedFrame, FrameCapture, PendingCapture, PendingValues, ReadBack, ReadBackRequest,
 };
 pub use frame::{Frame, History};
 pub use graph::{Graph, PlanCounts};

@@ -13,6 +13,7 @@ mod shader_pass;
 mod stepwise;
 mod threads;
 mod values;
+mod visit;
 
 #[cfg(test)]
 mod tests;
@@ -22,6 +23,7 @@ pub use checked::FailedFrame;
 pub use read_back::{ReadBack, ReadBackRequest};
 pub use values::PendingValues;
 pub(crate) use values::ValueOption;
+pub use visit::Contained;
 
 use crate::compiled::Compiled;
 use crate::error::Error;

@@ -20,5 +20,6 @@ mod threads;
 mod times;
 mod truth;
 mod values;
+mod visit;
 
 use gpu::{Compute, Draw};

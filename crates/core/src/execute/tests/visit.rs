@@ -1,0 +1,110 @@
+//! Contents that passes write, visited pass by pass.
+
+use super::gpu::Gpu;
+use crate::execute::Contained;
+use crate::{Contents, Format, Frame, Graph, Plan, Rect, Subresource, TextureDesc};
+
+/// Draws a frame and returns what was visited, with the names of pass and resource.
+fn visit<'f>(gpu: &'f Gpu, declare: impl Fn(&mut Frame<'f>)) -> (Vec<Contained>, Plan) {
+    let mut graph = Graph::new();
+    let mut frame = graph.frame();
+    declare(&mut frame);
+    let mut visited = Vec::new();
+    let compiled = graph.compile(frame).unwrap();
+    let mut keep = |contained| visited.push(contained);
+    let executed = compiled.execute_visited(&mut graph, &gpu.device, &gpu.queue, &mut keep).unwrap();
+    (visited, executed.plan().clone())
+}
+
+fn gray(value: f64) -> Contents {
+    Contents::clear_color([value; 4])
+}
+
+#[test]
+fn each_version_is_visited_after_its_pass_with_the_part_that_was_written() {
+    for gpu in Gpu::all() {
+        let (visited, plan) = visit(&gpu, |frame| {
+            let mut image = frame.create_texture("image", TextureDesc::d2(8, 4, Format::R8Unorm));
+            frame.render_pass("all").color(&mut image, gray(0.2));
+            let tile = Subresource::FULL.rect(Rect::new(2, 1, 3, 2));
+            frame.render_pass("tile").subresource(tile).color(&mut image, gray(1.0));
+            frame.export_texture(&image);
+        });
+        let name = |contained: &Contained| (plan.pass(contained.pass.unwrap()).name, contained.version);
+        assert_eq!(visited.iter().map(name).collect::<Vec<_>>(), [("all", 1), ("tile", 2)]);
+        let bytes: Vec<_> = visited.iter().map(|contained| contained.bytes.clone().unwrap()).collect();
+        assert_eq!((bytes[0].len(), bytes[1].len()), (32, 6));
+        if gpu.draws {
+            assert!(bytes[0].iter().all(|&byte| byte == 51) && bytes[1].iter().all(|&byte| byte == 255));
+        }
+    }
+}
+
+#[test]
+fn imports_that_passes_read_come_first_and_what_cannot_be_copied_has_a_reason() {
+    for gpu in Gpu::all() {
+        let own = |usage| {
+            gpu.device.create_texture(&wgpu::TextureDescriptor {
+                label: None,
+                size: wgpu::Extent3d { width: 4, height: 4, depth_or_array_layers: 1 },
+                mip_level_count: 1,
+                sample_count: 1,
+                dimension: wgpu::TextureDimension::D2,
+                format: Format::R8Unorm,
+                usage: usage | wgpu::TextureUsages::TEXTURE_BINDING,
+                view_formats: &[],
+            })
+        };
+        let copied = own(wgpu::TextureUsages::COPY_SRC);
+        let bound = own(wgpu::TextureUsages::empty());
+        let (visited, plan) = visit(&gpu, |frame| {
+            let copied = frame.import_texture("copied", &copied, true);
+            let bound = frame.import_texture("bound", &bound, true);
+            let mut samples =
+                frame.create_texture("samples", TextureDesc::d2(4, 4, Format::R8Unorm).samples(4));
+            let mut pass = frame.render_pass("draw");
+            let _tokens = [pass.sample(&copied), pass.sample(&bound)];
+            pass.color(&mut samples, gray(0.5));
+            pass.keep();
+        });
+        let found: Vec<_> = visited
+            .iter()
+            .map(|contained| {
+                let bytes = contained.bytes.as_ref().map(Vec::len);
+                (plan.resource(contained.resource).name, contained.pass.is_some(), bytes.map_err(|_| ()))
+            })
+            .collect();
+        assert_eq!(found, [("copied", false, Ok(16)), ("bound", false, Err(())), ("samples", true, Err(()))]);
+    }
+}
+
+#[test]
+fn mips_and_aspects_are_separate_and_buffers_have_their_range() {
+    for gpu in Gpu::all() {
+        let (visited, _) = visit(&gpu, |frame| {
+            let desc = TextureDesc { mip_levels: 2, ..TextureDesc::d2(4, 4, Format::R8Unorm) };
+            let mut mips = frame.create_texture("mips", desc);
+            for mip in 0..2 {
+                let part = Subresource::FULL.mip(mip);
+                frame.render_pass("mip").subresource(part).color(&mut mips, gray(1.0));
+            }
+            let mut both = frame.create_texture("both", TextureDesc::d2(4, 4, Format::Depth24PlusStencil8));
+            let mut pass = frame.render_pass("both");
+            pass.depth(&mut both, Contents::clear_depth(0.5));
+            pass.keep();
+            let uploaded = frame.upload_buffer("uploaded", vec![1, 2, 3, 4, 5, 6, 7, 8]);
+            frame.export_buffer(&uploaded);
+            frame.export_texture(&mips);
+        });
+        let mut sizes: Vec<_> =
+            visited.iter().map(|contained| contained.bytes.as_ref().map_or(0, Vec::len)).collect();
+        sizes.sort_unstable();
+        // The depth of 24 bits cannot be copied; the stencil of 4 x 4 texels can.
+        assert_eq!(sizes, [0, 4, 8, 16, 16], "{visited:?}");
+        let uploaded = visited
+            .iter()
+            .find(|contained| contained.bytes.as_ref().is_ok_and(|bytes| bytes.len() == 8))
+            .unwrap();
+        assert_eq!(uploaded.bytes, Ok(vec![1, 2, 3, 4, 5, 6, 7, 8]));
+    }
+}

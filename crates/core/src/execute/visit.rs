@@ -1,0 +1,197 @@
+//! Recording pass by pass, with all contents that passes write and that a frame begins with.
+
+use super::Executed;
+use super::read_back::{ReadBack, TexturePart};
+use super::record::prepare;
+use crate::compile::keeping;
+use crate::compiled::Compiled;
+use crate::context::{Bodies, Recording};
+use crate::declaration::{AccessDecl, Origin};
+use crate::desc::{ResourceDesc, TextureDesc};
+use crate::error::Error;
+use crate::graph::Graph;
+use crate::handle::{PassId, ResourceId};
+use crate::subresource::{Aspect, Subresource};
+use std::sync::Arc;
+use wgpu_types::TextureUsages;
+
+/// The contents of a part of a texture or buffer: what a pass wrote, or what was there when the frame began.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Contained {
+    /// The pass that wrote it; `None` for an import or a history when the frame begins.
+    pub pass: Option<PassId>,
+    /// The texture or buffer.
+    pub resource: ResourceId,
+    /// The version.
+    pub version: u32,
+    /// The part: of a texture one mip level and one aspect.
+    pub part: Subresource,
+    /// The bytes, for textures in rows from the top and layer by layer without padding, or the reason why there are none.
+    pub bytes: Result<Vec<u8>, String>,
+}
+
+impl Compiled<'_> {
+    /// Records, submits and waits for the frame pass by pass, and calls `visit` with all that each pass has written, and first with what
+    /// imports and histories contain that passes read. Memory is needed for the contents of one pass at a time.
+    ///
+    /// It draws the same as [`execute`](Self::execute), like a [capture](Self::execute_captured). Textures with several samples and
+    /// 24 bit depth cannot be copied.
+    ///
+    /// ```
+    /// use shadowgraph_core::{Contents, Format, Graph, TextureDesc};
+    /// # use shadowgraph_core::wgpu;
+    /// # let (device, queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
+    /// let mut graph = Graph::new();
+    /// let mut frame = graph.frame();
+    /// let mut color = frame.create_texture("color", TextureDesc::d2(64, 64, Format::Rgba8Unorm));
+    /// frame.render_pass("clear").color(&mut color, Contents::clear_color([1.0; 4]));
+    /// frame.export_texture(&color);
+    /// let mut sizes = Vec::new();
+    /// graph.compile(frame)?.execute_visited(&mut graph, &device, &queue, &mut |contained| {
+    ///     sizes.extend(contained.bytes.map(|bytes| bytes.len()));
+    /// })?;
+    /// assert_eq!(sizes, [64 * 64 * 4]);
+    /// # Ok::<(), shadowgraph_core::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As `execute`, and when the device is lost.
+    pub fn execute_visited(
+        self,
+        graph: &mut Graph,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        visit: &mut dyn FnMut(Contained),
+    ) -> Result<Executed, Error> {
+        record(self, graph, device, queue, visit).map_err(|error| graph.device.classify_error(device, error))
+    }
+}
+
+fn record(
+    mut compiled: Compiled<'_>,
+    graph: &mut Graph,
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    visit: &mut dyn FnMut(Contained),
+) -> Result<Executed, Error> {
+    let plan = compiled.plan.clone();
+    compiled.plan = Arc::new(keeping(&plan, TextureUsages::COPY_SRC));
+    let pool = &mut graph.device;
+    let encoder = || device.create_command_encoder(&Default::default());
+    let (mut first, mut last) = (encoder(), encoder());
+    let mut bodies = std::mem::take(&mut compiled.frame.work.bodies);
+    let prepared = prepare(&compiled, pool, device, &mut first, Some(&last))?;
+    let recording = prepared.recording(&compiled, pool, device, None);
+    let mut show = |encoder: wgpu::CommandEncoder, pending: Vec<Pending>| -> Result<(), Error> {
+        queue.submit([encoder.finish()]);
+        pending.into_iter().try_for_each(|pending| {
+            visit(pending.wait(device)?);
+            Ok(())
+        })
+    };
+    let initial = initial(&recording, &mut first);
+    show(first, initial)?;
+    for (index, step) in compiled.plan.steps().enumerate() {
+        let mut encoder = encoder();
+        recording.steps(index..index + 1, &mut encoder, Bodies::OfFrame(&mut bodies))?;
+        let written = step.passes.iter().flat_map(|&pass| {
+            let accesses = compiled.plan.decl.accesses(pass).iter();
+            let writes = accesses.filter(|access| access.contents.writes());
+            writes.map(move |access| (Some(pass), access, access.version + 1))
+        });
+        let written: Vec<_> = written.collect();
+        let pending = written.into_iter().flat_map(|(pass, access, version)| {
+            let part = compiled.plan.decl.subresource(access);
+            copies(&recording, (pass, access.resource, version), part, &mut encoder)
+        });
+        let pending = pending.collect();
+        show(encoder, pending)?;
+    }
+    let read_backs = recording.read_backs(&compiled.frame.work.read_backs, &mut last)?;
+    compiled.frame.work.bodies = bodies;
+    queue.submit([last.finish()]);
+    Ok(prepared.finish(compiled, pool, read_backs).with_plan(plan))
+}
+
+/// Records copies of all imports and histories whose first contents passes read.
+fn initial(recording: &Recording<'_>, encoder: &mut wgpu::CommandEncoder) -> Vec<Pending> {
+    let decl = &recording.plan.decl;
+    let reads_first = |access: &&AccessDecl| access.version == 0 && access.contents.needs();
+    let accesses = recording.plan.order.iter().flat_map(|&pass| decl.accesses(pass)).filter(reads_first);
+    let mut resources: Vec<ResourceId> = accesses
+        .map(|access| access.resource)
+        .filter(|&resource| decl.resource(resource).origin != Origin::Transient)
+        .collect();
+    resources.sort_unstable();
+    resources.dedup();
+    let copied = resources
+        .into_iter()
+        .flat_map(|resource| copies(recording, (None, resource, 0), Subresource::FULL, encoder));
+    copied.collect()
+}
+
+/// Contents on their way to the CPU.
+struct Pending {
+    contained: Contained,
+    copied: Option<ReadBack>,
+}
+
+impl Pending {
+    fn wait(mut self, device: &wgpu::Device) -> Result<Contained, Error> {
+        if let Some(copied) = self.copied {
+            self.contained.bytes = Ok(copied.wait(device)?);
+        }
+        Ok(self.contained)
+    }
+}
+
+/// Records copies of a part: of each mip level and aspect.
+fn copies(
+    recording: &Recording<'_>,
+    (pass, resource, version): (Option<PassId>, ResourceId, u32),
+    part: Subresource,
+    encoder: &mut wgpu::CommandEncoder,
+) -> Vec<Pending> {
+    let decl = &recording.plan.decl;
+    let (device, name) = (recording.device, decl.resource_name(resource));
+    let mut pending = Vec::new();
+    let mut add = |part, copied: Result<ReadBack, Error>| {
+        let (copied, bytes) = match copied {
+            Ok(copied) => (Some(copied), Ok(Vec::new())),
+            Err(Error::ReadBack { problem, .. }) => (None, Err(problem)),
+            Err(error) => (None, Err(error.to_string())),
+        };
+        pending.push(Pending { contained: Contained { pass, resource, version, part, bytes }, copied });
+    };
+    match decl.resource(resource).desc {
+        ResourceDesc::Texture(desc) => {
+            for part in texture_parts(&desc, part) {
+                let copied = TexturePart::from_part(name, &desc, &part).and_then(|copied_part| {
+                    ReadBack::texture(device, encoder, name, recording.texture(resource)?, &copied_part)
+                });
+                add(part, copied);
+            }
+        }
+        ResourceDesc::Buffer(desc) => {
+            let (start, end) = part.bytes.unwrap_or((0, desc.bytes));
+            let copied = recording
+                .buffer(resource)
+                .and_then(|buffer| ReadBack::buffer(device, encoder, name, buffer, start..end));
+            add(part, copied);
+        }
+    }
+    pending
+}
+
+/// Splits a part into its mip levels and aspects.
+fn texture_parts(desc: &TextureDesc, part: Subresource) -> Vec<Subresource> {
+    let aspects: &[Aspect] = match part.aspect {
+        Aspect::All if desc.format.is_combined_depth_stencil_format() => &[Aspect::Depth, Aspect::Stencil],
+        Aspect::All => &[Aspect::All],
+        Aspect::Depth => &[Aspect::Depth],
+        Aspect::Stencil => &[Aspect::Stencil],
+    };
+    let (first, end) = part.mips.unwrap_or((0, desc.mip_levels));
+    let mips = (first..end).map(|mip| Subresource { mips: Some((mip, mip + 1)), ..part });
+    mips.flat_map(|part| aspects.iter().map(move |&aspect| Subresource { aspect, ..part })).collect()
+}
