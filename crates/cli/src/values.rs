@@ -12,8 +12,8 @@ use super::failure::Failure;
 /// # Errors
 /// A range that is not one, with what is expected.
 pub(crate) fn parse(text: &str) -> Result<ValueCheck, OptionError> {
-    let parts = text.split(',').filter(|part| !part.is_empty());
-    parts.fold(Ok(ValueCheck::default()), |check, part| {
+    let mut parts = text.split(',').filter(|part| !part.is_empty());
+    parts.try_fold(ValueCheck::default(), |check, part| {
         let range = part.rsplit_once('=').and_then(|(texture, range)| {
             let (low, high) = range.split_once("..")?;
             let (low, high): (f32, f32) = (low.trim().parse().ok()?, high.trim().parse().ok()?);
@@ -23,7 +23,7 @@ pub(crate) fn parse(text: &str) -> Result<ValueCheck, OptionError> {
             let reason = format!("invalid range `{part}`; expected TEXTURE=LOW..HIGH, such as lit=0..1e4");
             OptionError::new("check_values", reason)
         })?;
-        Ok(check?.range(texture, range))
+        Ok(check.range(texture, range))
     })
 }
 
