@@ -35,7 +35,9 @@ pub struct Graph {
     #[cfg(feature = "gpu")]
     pub(crate) device: crate::pool::Pool,
     #[cfg(feature = "gpu")]
-    pub(crate) values: crate::execute::ValueOption,
+    pub(crate) value_check: Option<crate::values::ValueCheck>,
+    #[cfg(feature = "gpu")]
+    pub(crate) value_pipelines: Option<crate::internal::ValueChecks>,
 }
 
 impl Graph {
@@ -116,22 +118,22 @@ impl Graph {
     /// # use shadowgraph_core::wgpu;
     /// # let (device, queue) = wgpu::Device::noop(&Default::default());
     /// let mut graph = Graph::new();
-    /// graph.check_values(Some(ValueCheck::default().range("light", 0.0..=1e5)));
+    /// graph.check_values(Some(ValueCheck::default().range("color", 0.0..=1e5)));
     /// let mut frame = graph.frame();
-    /// let mut light = frame.create_texture("light", TextureDesc::d2(64, 64, Format::Rgba16Float));
-    /// frame.render_pass("draw").color(&mut light, Contents::clear_color([0.5; 4]));
-    /// frame.export_texture(&light);
+    /// let mut color = frame.create_texture("color", TextureDesc::d2(64, 64, Format::Rgba16Float));
+    /// frame.render_pass("draw").color(&mut color, Contents::clear_color([0.5; 4]));
+    /// frame.export_texture(&color);
     /// let mut encoder = device.create_command_encoder(&Default::default());
     /// let mut executed = graph.compile(frame)?.execute(&mut graph, &device, &mut encoder)?;
     /// queue.submit([encoder.finish()]);
     /// if let Some(values) = executed.take_values() {
-    ///     print!("{}", values.wait(&device)?.to_text(executed.plan())); // `draw` wrote `light` v1: 3 texels NaN ...
+    ///     print!("{}", values.wait(&device)?.to_text(executed.plan())); // `draw` wrote `color` v1: 3 texels NaN ...
     /// }
     /// # Ok::<(), shadowgraph_core::Error>(())
     /// ```
     #[cfg(feature = "gpu")]
     pub fn check_values(&mut self, check: Option<crate::values::ValueCheck>) {
-        self.values.check = check;
+        self.value_check = check;
     }
 
     /// Returns the bytes of all transient textures and buffers and all histories that the graph holds, without the

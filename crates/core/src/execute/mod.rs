@@ -22,7 +22,6 @@ pub use capture::{FrameCapture, PendingCapture};
 pub use checked::FailedFrame;
 pub use read_back::{ReadBack, ReadBackRequest};
 pub use values::PendingValues;
-pub(crate) use values::ValueOption;
 pub use visit::Contained;
 
 use crate::compiled::Compiled;
@@ -98,7 +97,7 @@ impl Executed {
 
 impl Graph {
     fn checks_values(&self) -> bool {
-        self.values.check.is_some()
+        self.value_check.is_some()
     }
 
     fn record(
@@ -108,11 +107,11 @@ impl Graph {
         encoder: &mut wgpu::CommandEncoder,
         timer: Option<&mut Timer>,
     ) -> Result<Executed, Error> {
-        match self.values.check {
+        match &self.value_check {
             None => record::record(compiled, &mut self.device, device, encoder, timer, None),
-            Some(_) => {
-                let graph = (&mut self.device, &mut self.values);
-                values::record_checked(compiled, graph, device, encoder, timer)
+            Some(check) => {
+                let graph = (&mut self.device, &mut self.value_pipelines);
+                values::record_checked(compiled, graph, check, (device, encoder), timer)
             }
         }
     }

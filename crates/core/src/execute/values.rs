@@ -10,7 +10,7 @@ use crate::declaration::{AccessDecl, Declaration};
 use crate::desc::{ResourceDesc, TextureDesc};
 use crate::error::Error;
 use crate::handle::{PassId, ResourceId};
-use crate::internal::{ImageKind, ImagePart, RECORD_WORDS, TEXEL_WORDS, ValueChecks, ValueStep};
+use crate::internal::{COUNT_WORDS, ImageKind, ImagePart, TEXEL_WORDS, ValueChecks, ValueStep};
 use crate::plan::Plan;
 use crate::pool::Pool;
 use crate::subresource::Aspect;
@@ -20,17 +20,10 @@ use std::ops::{Range, RangeInclusive};
 use std::sync::Arc;
 use wgpu_types::TextureUsages;
 
-/// The option of a graph, with the pipelines that it uses.
-#[derive(Default)]
-pub(crate) struct ValueOption {
-    pub(crate) check: Option<ValueCheck>,
-    checks: Option<ValueChecks>,
-}
-
 /// The check of a frame that is on its way to the CPU.
 #[must_use = "only `wait` returns the report"]
 pub struct PendingValues {
-    records: Vec<Record>,
+    parts: Vec<CheckedPart>,
     unchecked: Vec<(ResourceId, String)>,
     words: Option<ReadBack>,
 }
@@ -43,13 +36,13 @@ impl PendingValues {
     pub fn wait(self, device: &wgpu::Device) -> Result<ValueReport, Error> {
         let bytes = self.words.map_or_else(|| Ok(Vec::new()), |words| words.wait(device))?;
         let words: Vec<u32> = bytes.as_chunks().0.iter().map(|&bytes| u32::from_le_bytes(bytes)).collect();
-        let bad = self.records.iter().filter_map(|record| record.decode(&words)).collect();
+        let bad = self.parts.iter().filter_map(|part| part.decode(&words)).collect();
         Ok(ValueReport { bad, unchecked: self.unchecked })
     }
 }
 
 /// A mip level of a texture that a pass has written.
-struct Record {
+struct CheckedPart {
     pass: PassId,
     /// The first of its words.
     first_word: u32,
@@ -74,19 +67,18 @@ struct Image {
 
 pub(super) fn record_checked(
     mut compiled: Compiled<'_>,
-    (pool, option): (&mut Pool, &mut ValueOption),
-    device: &wgpu::Device,
-    encoder: &mut wgpu::CommandEncoder,
+    (pool, pipelines): (&mut Pool, &mut Option<ValueChecks>),
+    check: &ValueCheck,
+    (device, encoder): (&wgpu::Device, &mut wgpu::CommandEncoder),
     timer: Option<&mut Timer>,
 ) -> Result<Executed, Error> {
-    let check = option.check.clone().unwrap_or_default();
-    if option.checks.as_ref().is_some_and(|checks| !checks.is_of(device)) {
-        option.checks = None;
+    if pipelines.as_ref().is_some_and(|pipelines| !pipelines.is_of(device)) {
+        *pipelines = None;
     }
-    let checks = option.checks.get_or_insert_with(|| ValueChecks::new(device));
+    let pipelines = pipelines.get_or_insert_with(|| ValueChecks::new(device));
     let plan = compiled.plan.clone();
     compiled.plan = Arc::new(keeping(&plan, TextureUsages::TEXTURE_BINDING));
-    let (records, words) = records(&plan, &check);
+    let (parts, words) = parts(&plan, check);
     let words = (words > 0).then(|| {
         device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("value check"),
@@ -98,11 +90,11 @@ pub(super) fn record_checked(
     let mut unchecked: Vec<(ResourceId, String)> = Vec::new();
     let mut hook = |recording: &Recording<'_>, pass: PassId, encoder: &mut wgpu::CommandEncoder| {
         let Some(words) = &words else { return Ok(()) };
-        for record in records.iter().filter(|record| record.pass == pass) {
-            if let Err(reason) = record.record(recording, checks, words, encoder)
-                && !unchecked.iter().any(|(texture, _)| *texture == record.written.texture)
+        for part in parts.iter().filter(|part| part.pass == pass) {
+            if let Err(reason) = part.record(recording, pipelines, words, encoder)
+                && !unchecked.iter().any(|(texture, _)| *texture == part.written.texture)
             {
-                unchecked.push((record.written.texture, reason));
+                unchecked.push((part.written.texture, reason));
             }
         }
         Ok(())
@@ -111,15 +103,15 @@ pub(super) fn record_checked(
     let read =
         |words: &wgpu::Buffer| ReadBack::buffer(device, encoder, "value check", words, 0..words.size());
     let words = words.as_ref().map(read).transpose()?;
-    executed.values = Some(PendingValues { records, unchecked, words });
+    executed.values = Some(PendingValues { parts, unchecked, words });
     Ok(executed)
 }
 
 /// Returns what is checked after each pass, in their order, and the number of words that it needs.
-fn records(plan: &Plan, check: &ValueCheck) -> (Vec<Record>, u32) {
+fn parts(plan: &Plan, check: &ValueCheck) -> (Vec<CheckedPart>, u32) {
     let decl = &plan.decl;
     let mut next_word = 0;
-    let mut records = Vec::new();
+    let mut parts = Vec::new();
     for &pass in &plan.order {
         let accesses = decl.accesses(pass);
         let inputs: Vec<Image> = accesses
@@ -144,13 +136,13 @@ fn records(plan: &Plan, check: &ValueCheck) -> (Vec<Record>, u32) {
                     let same_shape = |input: &&Image| input.has_shape_of(&written);
                     let inputs: Vec<Image> = inputs.iter().filter(same_shape).cloned().collect();
                     let first_word = next_word;
-                    next_word += RECORD_WORDS + TEXEL_WORDS * (1 + inputs.len() as u32);
-                    records.push(Record { pass, first_word, range, written, inputs });
+                    next_word += COUNT_WORDS + TEXEL_WORDS * (1 + inputs.len() as u32);
+                    parts.push(CheckedPart { pass, first_word, range, written, inputs });
                 }
             }
         }
     }
-    (records, next_word)
+    (parts, next_word)
 }
 
 /// Returns whether texels of a format can be NaN, infinite, or depth outside of 0 to 1.
@@ -174,7 +166,7 @@ fn is_float(format: wgpu::TextureFormat) -> bool {
 fn images(decl: &Declaration, access: &AccessDecl, version: u32) -> Vec<Image> {
     let ResourceDesc::Texture(desc) = decl.resource(access.resource).desc else { return Vec::new() };
     let part = decl.subresource(access);
-    let kind = ImageKind::of(desc.format, desc.dimension, desc.samples);
+    let kind = ImageKind::for_texture(desc.format, desc.dimension, desc.samples);
     let Some(kind) = kind.filter(|_| part.aspect != Aspect::Stencil) else { return Vec::new() };
     let (first, end) = part.mips.unwrap_or((0, desc.mip_levels));
     (first..end)
@@ -200,12 +192,12 @@ fn layers(desc: &TextureDesc, part: Option<(u32, u32)>, mip: u32) -> Range<u32> 
     first..end.min(all)
 }
 
-impl Record {
+impl CheckedPart {
     /// Records the steps of the check. An error is the reason why it cannot be checked.
     fn record(
         &self,
         recording: &Recording<'_>,
-        checks: &mut ValueChecks,
+        pipelines: &mut ValueChecks,
         words: &wgpu::Buffer,
         encoder: &mut wgpu::CommandEncoder,
     ) -> Result<(), String> {
@@ -215,10 +207,10 @@ impl Record {
             encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label, timestamp_writes: None });
         let mut step = |image: &Image, view: &wgpu::TextureView, step, copied| {
             let part = self.part(image, copied);
-            checks.record(&mut pass, (image.kind, view), words, (step, &part));
+            pipelines.record(&mut pass, (image.kind, view), words, (step, &part));
         };
         step(&self.written, &view, ValueStep::Count, 0);
-        let first_texel = self.first_word + RECORD_WORDS;
+        let first_texel = self.first_word + COUNT_WORDS;
         step(&self.written, &view, ValueStep::Copy, first_texel);
         for (input, index) in self.inputs.iter().zip(1..) {
             // A texture without the usage has no value in the report.
@@ -236,20 +228,20 @@ impl Record {
             size: image.size,
             layers: image.layers.end - image.layers.start,
             channels: image.channels,
-            record: self.first_word,
+            counts: self.first_word,
             copied,
             range: self.range.clone(),
         }
     }
 
-    /// Returns the finding of the record; `None` if all values are good.
+    /// Returns what was found; `None` if all values are good.
     fn decode(&self, words: &[u32]) -> Option<BadValues> {
         let own = words.get(self.first_word as usize..)?;
         let &[nan, infinite, outside, found] = own.first_chunk::<4>()?;
         if found == 0 {
             return None;
         }
-        let mut texels = own[RECORD_WORDS as usize..].chunks_exact(TEXEL_WORDS as usize);
+        let mut texels = own[COUNT_WORDS as usize..].chunks_exact(TEXEL_WORDS as usize);
         let first = self.written.texel(texels.next()?);
         let inputs = self.inputs.iter().zip(texels).map(|(input, texel)| input.texel(texel)).collect();
         let range = self.range.clone();

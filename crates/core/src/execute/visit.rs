@@ -165,7 +165,7 @@ fn copies(
     };
     match decl.resource(resource).desc {
         ResourceDesc::Texture(desc) => {
-            for part in texture_parts(&desc, part) {
+            for part in mips_and_aspects(&desc, part) {
                 let copied = TexturePart::from_part(name, &desc, &part).and_then(|copied_part| {
                     ReadBack::texture(device, encoder, name, recording.texture(resource)?, &copied_part)
                 });
@@ -184,7 +184,7 @@ fn copies(
 }
 
 /// Splits a part into its mip levels and aspects.
-fn texture_parts(desc: &TextureDesc, part: Subresource) -> Vec<Subresource> {
+fn mips_and_aspects(desc: &TextureDesc, part: Subresource) -> Vec<Subresource> {
     let aspects: &[Aspect] = match part.aspect {
         Aspect::All if desc.format.is_combined_depth_stencil_format() => &[Aspect::Depth, Aspect::Stencil],
         Aspect::All => &[Aspect::All],

@@ -80,7 +80,7 @@ fn filtered(@builtin(position) position: vec4f) -> @location(0) vec4f {
 //: values
 // Counts texels of a texture with values that they should not have, and copies single texels. TEXTURE, LOAD and SAMPLES are
 // replaced for each kind of texture.
-struct Part {
+struct CheckedPart {
     // The first texel that was written, and their number along each side.
     written: vec4u,
     // The size of the mip level that was written, and of that of `image`.
@@ -88,8 +88,8 @@ struct Part {
     size: vec2u,
     layers: u32,
     channels: u32,
-    // The first word of the record of what was written: see RECORD_*.
-    record: u32,
+    // The first word of the counts of what was written: see COUNTED_*.
+    counts: u32,
     // The first word that `copy` writes: x, y, layer, and the bits of four channels.
     copied: u32,
     // The values that are allowed.
@@ -100,13 +100,13 @@ struct Part {
 
 @group(0) @binding(0) var image: TEXTURE;
 @group(0) @binding(1) var<storage, read_write> words: array<atomic<u32>>;
-@group(0) @binding(2) var<uniform> part: Part;
+@group(0) @binding(2) var<uniform> part: CheckedPart;
 
-const RECORD_NAN: u32 = 0u;
-const RECORD_INFINITE: u32 = 1u;
-const RECORD_OUTSIDE: u32 = 2u;
+const COUNTED_NAN: u32 = 0u;
+const COUNTED_INFINITE: u32 = 1u;
+const COUNTED_OUTSIDE: u32 = 2u;
 // The largest u32 minus the first texel's number; 0: there is none.
-const RECORD_FIRST: u32 = 3u;
+const COUNTED_FIRST: u32 = 3u;
 
 const GOOD: u32 = 3u;
 
@@ -116,13 +116,13 @@ fn kind_of(bits: vec4u) -> u32 {
     for (var channel = 0u; channel < part.channels; channel++) {
         let magnitude = bits[channel] & 0x7fffffffu;
         if magnitude > 0x7f800000u {
-            kind = min(kind, RECORD_NAN);
+            kind = min(kind, COUNTED_NAN);
         } else if magnitude == 0x7f800000u {
-            kind = min(kind, RECORD_INFINITE);
+            kind = min(kind, COUNTED_INFINITE);
         } else {
             let value = bitcast<f32>(bits[channel]);
             if value < part.low || value > part.high {
-                kind = min(kind, RECORD_OUTSIDE);
+                kind = min(kind, COUNTED_OUTSIDE);
             }
         }
     }
@@ -152,16 +152,16 @@ fn count(@builtin(global_invocation_id) id: vec3u) {
     }
     let kind = kind_of(worst(vec3u(part.written.xy + id.xy, id.z)));
     if kind != GOOD {
-        atomicAdd(&words[part.record + kind], 1u);
+        atomicAdd(&words[part.counts + kind], 1u);
         let number = (id.z * part.written.w + id.y) * part.written.z + id.x;
-        atomicMax(&words[part.record + RECORD_FIRST], 0xffffffffu - number);
+        atomicMax(&words[part.counts + COUNTED_FIRST], 0xffffffffu - number);
     }
 }
 
-// Copies the texel at the place of the first one of the record.
+// Copies the texel at the place of the first one that was counted.
 @compute @workgroup_size(1)
 fn copy() {
-    let first = atomicLoad(&words[part.record + RECORD_FIRST]);
+    let first = atomicLoad(&words[part.counts + COUNTED_FIRST]);
     if first == 0u {
         return;
     }

@@ -11,7 +11,7 @@ pub(crate) use region_clear::{RegionClear, RegionClears, Targets};
 #[cfg(test)]
 use resample::ResampleError;
 pub(crate) use resample::{Resampler, can_resample};
-pub(crate) use value_check::{ImageKind, ImagePart, RECORD_WORDS, TEXEL_WORDS, ValueChecks, ValueStep};
+pub(crate) use value_check::{COUNT_WORDS, ImageKind, ImagePart, TEXEL_WORDS, ValueChecks, ValueStep};
 
 const SOURCE: &str = include_str!("internal.wgsl");
 

@@ -3,11 +3,11 @@
 use super::{section, uniform};
 use crate::desc::Format;
 use std::collections::HashMap;
-use std::ops::RangeInclusive;
+use std::ops::{Range, RangeInclusive};
 use wgpu::{TextureDimension, TextureSampleType, TextureViewDimension};
 
-/// Words of the record of a part: see `RECORD_*` of `internal.wgsl`.
-pub(crate) const RECORD_WORDS: u32 = 4;
+/// Words of the counts of a part: see `COUNTED_*` of `internal.wgsl`.
+pub(crate) const COUNT_WORDS: u32 = 4;
 /// Words of a copied texel: its place, and the bits of four channels.
 pub(crate) const TEXEL_WORDS: u32 = 7;
 /// The side of a workgroup that counts, texels.
@@ -23,7 +23,7 @@ pub(crate) struct ImageKind {
 
 impl ImageKind {
     /// Returns how a texture is read: `None` if it cannot be, for a 1D texture, a stencil without depth, and formats with planes.
-    pub(crate) fn of(format: Format, dimension: TextureDimension, samples: u32) -> Option<Self> {
+    pub(crate) fn for_texture(format: Format, dimension: TextureDimension, samples: u32) -> Option<Self> {
         let aspect = format.has_depth_aspect().then_some(wgpu::TextureAspect::DepthOnly);
         let sample_type = match format.sample_type(aspect, None)? {
             TextureSampleType::Float { .. } => TextureSampleType::Float { filterable: false },
@@ -54,12 +54,7 @@ impl ImageKind {
     }
 
     /// Returns the view of some layers of a mip level.
-    pub(crate) fn view(
-        self,
-        texture: &wgpu::Texture,
-        mip: u32,
-        layers: &std::ops::Range<u32>,
-    ) -> wgpu::TextureView {
+    pub(crate) fn view(self, texture: &wgpu::Texture, mip: u32, layers: &Range<u32>) -> wgpu::TextureView {
         let aspect = match self.sample_type {
             TextureSampleType::Depth => wgpu::TextureAspect::DepthOnly,
             _ => wgpu::TextureAspect::All,
@@ -106,7 +101,7 @@ impl ImageKind {
     }
 }
 
-/// A part of a texture that is read, and where its results go. Fields as in `Part` of `internal.wgsl`.
+/// A part of a texture that is read, and where its results go. Fields as in `CheckedPart` of `internal.wgsl`.
 #[derive(Clone, Debug)]
 pub(crate) struct ImagePart {
     /// The first texel that was written, and their number along each side.
@@ -117,7 +112,7 @@ pub(crate) struct ImagePart {
     pub(crate) size: [u32; 2],
     pub(crate) layers: u32,
     pub(crate) channels: u32,
-    pub(crate) record: u32,
+    pub(crate) counts: u32,
     pub(crate) copied: u32,
     pub(crate) range: RangeInclusive<f32>,
 }
@@ -127,8 +122,8 @@ impl ImagePart {
         let [a, b, c, d] = self.written;
         let ([e, f], [g, h]) = (self.written_size, self.size);
         let [low, high] = [self.range.start(), self.range.end()].map(|value| value.to_bits());
-        let Self { layers, channels, record, copied, .. } = *self;
-        [a, b, c, d, e, f, g, h, layers, channels, record, copied, low, high, 0, 0]
+        let Self { layers, channels, counts, copied, .. } = *self;
+        [a, b, c, d, e, f, g, h, layers, channels, counts, copied, low, high, 0, 0]
     }
 }
 

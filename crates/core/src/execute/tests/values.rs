@@ -43,13 +43,13 @@ fn the_first_pass_that_writes_a_nan_is_named_with_its_texel_and_what_it_read_the
     let (report, text) = check(&gpu, ValueCheck::default(), |frame| {
         let mut source = texture(frame, "source", Format::Rgba8Unorm);
         fill(frame, "fill", &mut source, None, [0.0, 1.0, 0.0, 1.0]);
-        let mut light = texture(frame, "light", Format::Rgba16Float);
-        fill(frame, "clear", &mut light, None, [2.0; 4]);
+        let mut color = texture(frame, "color", Format::Rgba16Float);
+        fill(frame, "clear", &mut color, None, [2.0; 4]);
         let mut pass = frame.render_pass("divide");
         let _source = pass.sample(&source);
         let tile = Subresource::FULL.rect(Rect::new(5, 3, 2, 1));
-        pass.subresource(tile).color(&mut light, Contents::clear_color([1.0, f64::NAN, f64::INFINITY, 1.0]));
-        frame.export_texture(&light);
+        pass.subresource(tile).color(&mut color, Contents::clear_color([1.0, f64::NAN, f64::INFINITY, 1.0]));
+        frame.export_texture(&color);
     });
     let [bad] = &report.bad[..] else { panic!("{text}") };
     assert_eq!((bad.nan, bad.infinite, bad.outside), (2, 0, 0));
@@ -59,7 +59,7 @@ fn the_first_pass_that_writes_a_nan_is_named_with_its_texel_and_what_it_read_the
     assert_eq!(bad.inputs[0].value, [0.0, 1.0, 0.0, 1.0]);
     assert_eq!(
         text,
-        "`divide` wrote `light` v2: 2 texels NaN\n  there: `light` v2 at 5,3: 1 NaN inf 1\n  read:  `source` v1 at 5,3: 0 1 0 1\n"
+        "`divide` wrote `color` v2: 2 texels NaN\n  there: `color` v2 at 5,3: 1 NaN inf 1\n  read:  `source` v1 at 5,3: 0 1 0 1\n"
     );
 }
 
@@ -67,12 +67,12 @@ fn the_first_pass_that_writes_a_nan_is_named_with_its_texel_and_what_it_read_the
 fn values_of_later_versions_are_checked_too() {
     let Some(gpu) = Gpu::drawing() else { return };
     let (report, text) = check(&gpu, ValueCheck::default(), |frame| {
-        let mut light = texture(frame, "light", Format::R32Float);
-        fill(frame, "first", &mut light, None, [f64::INFINITY; 4]);
+        let mut color = texture(frame, "color", Format::R32Float);
+        fill(frame, "first", &mut color, None, [f64::INFINITY; 4]);
         let mut copy = texture(frame, "copy", Format::R32Float);
-        frame.copy_pass("copy").texture(&light, &mut copy);
-        fill(frame, "second", &mut light, None, [1.0; 4]);
-        frame.export_texture(&light);
+        frame.copy_pass("copy").texture(&color, &mut copy);
+        fill(frame, "second", &mut color, None, [1.0; 4]);
+        frame.export_texture(&color);
         frame.export_texture(&copy);
     });
     assert_eq!(report.bad.len(), 2, "{text}");
@@ -83,16 +83,16 @@ fn values_of_later_versions_are_checked_too() {
 #[test]
 fn declared_ranges_hold_for_all_formats_but_integers() {
     let Some(gpu) = Gpu::drawing() else { return };
-    let ranges = ValueCheck::default().range("mask", 0.0..=0.5).range("light", -1.0..=1.0);
+    let ranges = ValueCheck::default().range("mask", 0.0..=0.5).range("color", -1.0..=1.0);
     let (report, text) = check(&gpu, ranges, |frame| {
         let mut mask = texture(frame, "mask", Format::R8Unorm);
         fill(frame, "clear", &mut mask, None, [0.25; 4]);
         fill(frame, "mask", &mut mask, Some(Rect::new(0, 7, 3, 1)), [1.0; 4]);
-        let mut light = texture(frame, "light", Format::Rgba16Float);
-        fill(frame, "light", &mut light, None, [1.0, -1.0, 0.0, 0.5]);
+        let mut color = texture(frame, "color", Format::Rgba16Float);
+        fill(frame, "color", &mut color, None, [1.0, -1.0, 0.0, 0.5]);
         let mut ids = texture(frame, "ids", Format::R32Uint);
         fill(frame, "ids", &mut ids, None, [f64::from(0x7f80_0001); 4]);
-        for texture in [&mask, &light, &ids] {
+        for texture in [&mask, &color, &ids] {
             frame.export_texture(texture);
         }
     });
