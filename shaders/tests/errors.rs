@@ -108,7 +108,8 @@ fn an_unknown_entry_file_is_an_error_that_lists_the_existing_ones() {
     let start = "unknown built-in entry file `foward.wgsl`; expected one of: background.wgsl, blur.wgsl, check.wgsl, clusters.wgsl, ";
     assert!(text.starts_with(start), "{text}");
     assert!(
-        text.contains(", pages_update.wgsl, pose.wgsl, post/bloom.wgsl, ") && text.contains(", tonemap.wgsl"),
+        text.contains(", pages_update.wgsl, pages_view.wgsl, pose.wgsl, post/bloom.wgsl, ")
+            && text.contains(", tonemap.wgsl"),
         "{text}"
     );
     assert!(!text.contains(" view.wgsl") && !text.contains("prefilter.wgsl"), "{text}");
