@@ -6,6 +6,7 @@ pub mod edits;
 pub mod features;
 pub mod gltf_file;
 pub mod ktx2;
+pub mod planted;
 mod program;
 pub mod random;
 pub mod shares;

@@ -8,8 +8,8 @@ use super::console;
 use super::failure::Failure;
 use super::progress::Progress;
 use super::report::{self, Planned};
-use shadowgraph::inspect::{self, Dump, HtmlPage, PageTable, lights, trace_json};
-use shadowgraph::output::write_text;
+use shadowgraph::inspect::{self, ContentsRecorder, Dump, HtmlPage, PageTable, lights, trace_json};
+use shadowgraph::output::{write_bytes, write_text};
 use shadowgraph::{FrameCounts, Gpu, Pipeline, Registry, RenderedFrame};
 
 /// Title of pages, followed by the file of the scene.
@@ -18,7 +18,9 @@ const TITLE: &str = "Shadowgraph frame";
 /// `shadowgraph dump`
 pub(crate) fn dump(args: &DumpArgs, registry: &Registry) -> Result<(), Failure> {
     let text = match (&args.diff, args.format()?) {
-        (Some(files), format) => diff(files, format)?,
+        (Some(files), format) => diff(files, format, args.tolerance)?,
+        (None, Format::Json) if args.hashes => hashes(args, input(&args.draw, registry)?)?,
+        (None, _) if args.hashes => return Err(usage("--hashes: the format is json, as of -o frame.json")),
         (None, Format::Html) => page(args, input(&args.draw, registry)?)?,
         (None, format) => plan_text(args, format, input(&args.draw, registry)?)?,
     };
@@ -41,7 +43,7 @@ fn plan_text(args: &DumpArgs, format: Format, mut input: Input) -> Result<String
             let times = report::times(&drawn.times, &gpu.adapter);
             [&report::text(&lights, &drawn), "\n", &times, &report::counts(&drawn.counts)].concat()
         }
-        Format::Json => report::json(&lights, &drawn)?,
+        Format::Json => report::json(&lights, &drawn, None)?,
         Format::Dot => drawn.plan.to_dot(),
         Format::Mermaid => drawn.plan.to_mermaid(),
         Format::Html => inspect::to_html(&drawn.plan),
@@ -101,10 +103,41 @@ fn page(args: &DumpArgs, input: Input) -> Result<String, Failure> {
     Ok(finish(page))
 }
 
+/// Draws the last of some frames, writes the file of values, and returns the dump.
+fn hashes(args: &DumpArgs, input: Input) -> Result<String, Failure> {
+    let lights = input.scene.lights().to_vec();
+    let gpu = Gpu::open(&input.options.adapter).map_err(Failure::no_device)?;
+    let drawing = Progress::if_slow("drawing");
+    let (mut renderer, view) = play(&gpu, input, args.frames, &drawing, &mut |_, _| Ok(()))?;
+    let mut recorder = ContentsRecorder::new((args.values_mib as usize) << 20);
+    let RenderedFrame { plan, unshadowed, counts, .. } =
+        renderer.record_contents(&gpu, &view, &mut recorder)?;
+    if let left_out @ 1.. = recorder.left_out() {
+        console::warning(&format!(
+            "{left_out} versions of textures and buffers have only a hash: their values exceed --values-mib {}",
+            args.values_mib
+        ));
+    }
+    let planned = Planned { plan, times: Vec::new(), unshadowed, counts };
+    let text = report::json(&lights, &planned, Some(recorder.to_json()?))?;
+    if let Some(file) = args.output.as_deref().map(values_file) {
+        write_bytes(&file, &recorder.into_values())?;
+        console::print(&format!("wrote {}\n", file.display()))?;
+    }
+    Ok(text)
+}
+
+/// Returns the file of values next to a dump.
+fn values_file(dump: &Path) -> PathBuf {
+    dump.with_extension("values")
+}
+
 /// Returns the differences between the frames of two files.
-fn diff(files: &[PathBuf], format: Format) -> Result<String, Failure> {
+fn diff(files: &[PathBuf], format: Format, tolerance: f64) -> Result<String, Failure> {
     let [before, after] = files else { return Err(usage("--diff: expected two files")) };
-    let diff = read(before)?.diff(&read(after)?);
+    let (read_before, read_after) = (read(before)?, read(after)?);
+    let failed = |problem| Failure { code: Failure::INPUT, message: format!("--diff: {problem}") };
+    let diff = read_before.diff_with_contents(&read_after, tolerance).map_err(failed)?;
     match format {
         Format::Text => Ok(diff.to_text()),
         Format::Json => Ok(serde_json::to_string_pretty(&diff)? + "\n"),
@@ -121,7 +154,15 @@ fn read(file: &Path) -> Result<Dump, Failure> {
         message: format!("--diff {}: {problem}", file.display()),
     };
     let text = std::fs::read_to_string(file).map_err(|error| failed(format!("cannot be read: {error}")))?;
-    Dump::from_json(&text).map_err(|error| failed(format!("{error}; `dump -o frame.json` writes one")))
+    let dump = Dump::from_json(&text)
+        .map_err(|error| failed(format!("{error}; `dump -o frame.json` writes one")))?;
+    let values = values_file(file);
+    if !dump.has_contents() || !values.is_file() {
+        return Ok(dump);
+    }
+    let values = std::fs::read(&values)
+        .map_err(|error| failed(format!("{} cannot be read: {error}", values.display())))?;
+    dump.with_values(values).map_err(|error| failed(error.to_string()))
 }
 
 fn usage(message: &str) -> Failure {

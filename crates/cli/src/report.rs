@@ -43,7 +43,7 @@ pub(crate) fn text(lights: &[Light], planned: &Planned) -> String {
 }
 
 /// Formats the plan as JSON, with the scene's lights.
-pub(crate) fn json(lights: &[Light], planned: &Planned) -> Result<String, Failure> {
+pub(crate) fn json(lights: &[Light], planned: &Planned, contents: Option<Value>) -> Result<String, Failure> {
     let mut document: Value = serde_json::from_str(&planned.plan.to_json()?)?;
     let lights = lights.iter().enumerate().map(|(index, light)| {
         json!({
@@ -67,6 +67,9 @@ pub(crate) fn json(lights: &[Light], planned: &Planned) -> Result<String, Failur
     if !planned.counts.shadows.is_empty() {
         let shadows = planned.counts.shadows.iter();
         document["shadow_counts"] = shadows.map(|(name, count)| (*name, *count)).collect();
+    }
+    if let Some(contents) = contents {
+        document["contents"] = contents;
     }
     let mut text = serde_json::to_string_pretty(&document)?;
     text.push('\n');

@@ -1,4 +1,4 @@
-//! Captured contents of textures, as plain data.
+//! Captured contents of textures and buffers, as plain data.
 
 use crate::handle::{PassId, ResourceId};
 use crate::subresource::{Rect, Subresource};
@@ -53,4 +53,19 @@ pub struct SnapshotTile {
     pub rect: Rect,
     /// Name of the rectangle.
     pub name: String,
+}
+
+/// The contents of a part of a texture or buffer: what a pass wrote, or what was there when the frame began.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Contained {
+    /// The pass that wrote it; `None` for an import or a history when the frame begins.
+    pub pass: Option<PassId>,
+    /// The texture or buffer.
+    pub resource: ResourceId,
+    /// The version.
+    pub version: u32,
+    /// The part: of a texture one mip level and one aspect.
+    pub part: Subresource,
+    /// The bytes, for textures in rows from the top and layer by layer without padding, or the reason why there are none.
+    pub bytes: Result<Vec<u8>, String>,
 }

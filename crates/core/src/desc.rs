@@ -1,6 +1,6 @@
 //! Descriptions of textures and buffers.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use wgpu_types::{Extent3d, TextureDimension};
 
 /// A texture format, as wgpu names it.
@@ -9,7 +9,7 @@ pub type Format = wgpu_types::TextureFormat;
 pub type Extent = Extent3d;
 
 /// The description of a texture. It has no usage flags, which the graph derives.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct TextureDesc {
     /// Size in texels; `depth_or_array_layers` counts layers of a 2D texture.
     pub size: Extent,
@@ -83,7 +83,7 @@ impl TextureDesc {
 }
 
 /// The description of a buffer.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct BufferDesc {
     /// Size in bytes, at least 4 and a multiple of 4.
     pub bytes: u64,
@@ -97,7 +97,7 @@ impl BufferDesc {
 }
 
 /// The description of a resource.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum ResourceDesc {
     /// A texture.
     Texture(TextureDesc),

@@ -72,6 +72,7 @@ mod subresource;
 mod suggest;
 #[cfg(all(test, feature = "gpu"))]
 mod test_device;
+mod texels;
 #[cfg(feature = "gpu")]
 mod timer;
 mod times;
@@ -81,7 +82,7 @@ pub use access::{Access, ClearValue, Contents};
 #[cfg(feature = "gpu")]
 pub use builder::ShaderPassBuilder;
 pub use builder::{Compute, Copying, Encoding, Pass, Rendering, ShaderPass};
-pub use capture::{SnapshotTile, TexelValues, Texels, TextureSnapshot};
+pub use capture::{Contained, SnapshotTile, TexelValues, Texels, TextureSnapshot};
 pub use compiled::Compiled;
 #[cfg(feature = "gpu")]
 pub use context::{BodyResult, ComputeContext, EncoderContext, RenderContext, Resources};
@@ -93,7 +94,7 @@ pub use dump::{JSON_SCHEMA, describe};
 pub use error::Error;
 #[cfg(feature = "gpu")]
 pub use execute::{
-    Contained, Executed, FailedFrame, FrameCapture, PendingCapture, PendingValues, ReadBack, ReadBackRequest,
+    Executed, FailedFrame, FrameCapture, PendingCapture, PendingValues, ReadBack, ReadBackRequest,
 };
 pub use frame::{Frame, History};
 pub use graph::{Graph, PlanCounts};
@@ -119,6 +120,7 @@ pub use pool::PoolLimits;
 pub use shader_pass::UniformSource;
 pub use subresource::{Aspect, Rect, Subresource};
 pub use suggest::{closest_name, did_you_mean};
+pub use texels::TexelLayout;
 #[cfg(feature = "gpu")]
 pub use timer::Timer;
 pub use times::{PassTime, TimeHistory, TimeStats, TimeSummary};

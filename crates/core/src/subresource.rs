@@ -159,6 +159,43 @@ impl Subresource {
         (!fits).then_some("the rectangle is empty or extends past the mip")
     }
 
+    /// Returns the first mip level.
+    pub fn first_mip(&self) -> u32 {
+        self.mips.map_or(0, |(first, _)| first)
+    }
+
+    /// Returns the first layer, or slice of a 3D texture.
+    pub fn first_layer(&self) -> u32 {
+        self.layers.map_or(0, |(first, _)| first)
+    }
+
+    /// Returns the first byte of a buffer.
+    pub fn first_byte(&self) -> u64 {
+        self.bytes.map_or(0, |(first, _)| first)
+    }
+
+    /// Returns the aspect.
+    pub fn selected_aspect(&self) -> Aspect {
+        self.aspect
+    }
+
+    /// Returns whether the subresource is within a resource, and of its kind.
+    pub fn is_within(&self, desc: &ResourceDesc) -> bool {
+        self.problem(desc).is_none()
+    }
+
+    /// Returns whether two subresources of a resource, which they are [within](Self::is_within), share texels or bytes.
+    pub fn overlaps(&self, other: &Self, desc: &ResourceDesc) -> bool {
+        let [own, other] = [self, other].map(|part| part.region(desc).unwrap_or(Region::ALL));
+        own.overlaps(&other)
+    }
+
+    /// Returns whether all of another subresource of a resource, which they are [within](Self::is_within), is in this one.
+    pub fn contains(&self, other: &Self, desc: &ResourceDesc) -> bool {
+        let [own, other] = [self, other].map(|part| part.region(desc).unwrap_or(Region::ALL));
+        own.contains(&other)
+    }
+
     /// Returns the subresource as a region, or `None` for the full resource. It must be valid for the resource.
     pub(crate) fn region(&self, desc: &ResourceDesc) -> Option<Region> {
         let mut region = Region::ALL;

@@ -4,6 +4,7 @@ mod facts;
 mod html;
 
 use crate::Error;
+use crate::contents::ContentsDiff;
 pub use facts::Dump;
 use facts::Facts;
 use serde::Serialize;
@@ -47,10 +48,13 @@ pub struct Difference {
 
 /// Differences between two frames. Things are identified by name; if several have the same name, those that are equal in both
 /// frames are left out and the others are compared in order.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Diff {
     /// Differences by subject, then by name.
     pub differences: Vec<Difference>,
+    /// Differences of what passes have written, if both dumps say what that is.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub contents: Option<ContentsDiff>,
 }
 
 impl Dump {
@@ -91,14 +95,28 @@ impl Dump {
             was.into_iter().for_each(|fact| add(Some(fact), is.next()));
             is.for_each(|fact| add(None, Some(fact)));
         }
-        Diff { differences }
+        Diff { differences, contents: None }
+    }
+
+    /// Compares this frame with another like [`diff`](Self::diff), and what their passes have written too, if both dumps
+    /// [say so](Self::has_contents). Numbers that differ by at most `tolerance` times the larger one, or times 1 if both are smaller, are equal
+    /// where both have [values](Self::with_values).
+    ///
+    /// # Errors
+    /// [`Error::Dump`] if a file of values is not that of its dump.
+    pub fn diff_with_contents(&self, after: &Self, tolerance: f64) -> Result<Diff, Error> {
+        let contents = match (&self.contents, &after.contents) {
+            (Some(before), Some(after)) => Some(before.diff(after, tolerance)?),
+            _ => None,
+        };
+        Ok(Diff { contents, ..self.diff(after) })
     }
 }
 
 impl Diff {
     /// Returns whether the frames are the same in all that is compared.
     pub fn is_empty(&self) -> bool {
-        self.differences.is_empty()
+        self.differences.is_empty() && self.contents.as_ref().is_none_or(|contents| contents.first.is_none())
     }
 
     /// Returns the differences about one subject.
@@ -109,10 +127,14 @@ impl Diff {
     /// Returns the differences as text: `-` for removed, `+` for added, `~` for changed. Differences only in numbers are
     /// counted.
     pub fn to_text(&self) -> String {
-        if self.is_empty() {
-            return "the frames do not differ\n".into();
+        let mut out = self.contents.as_ref().map(ContentsDiff::to_text).unwrap_or_default();
+        if self.differences.is_empty() {
+            out += match self.contents {
+                None => "the frames do not differ\n",
+                Some(_) => "the plans do not differ\n",
+            };
+            return out;
         }
-        let mut out = String::new();
         for subject in Subject::ALL {
             if self.about(subject).next().is_none() {
                 continue;

@@ -18,12 +18,14 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod contents;
 mod diff;
 mod error;
 mod explain;
 mod html;
 mod trace;
 
+pub use contents::{ContentsDiff, ContentsDifference, ContentsRecorder, LargestDifference};
 pub use diff::{Diff, Difference, Dump, Subject, diff};
 pub use error::Error;
 pub use explain::{explain, explain_order, explain_pass, explain_resource, explain_why_before};

@@ -106,6 +106,14 @@ pub fn write_text(file: &Path, text: &str) -> Result<(), OutputError> {
     write_atomically(file, &mut |out| out.write_all(text.as_bytes()))
 }
 
+/// Writes bytes. Missing directories are created; an older file is replaced only by a complete new one.
+///
+/// # Errors
+/// As [`write_text`].
+pub fn write_bytes(file: &Path, bytes: &[u8]) -> Result<(), OutputError> {
+    write_atomically(file, &mut |out| out.write_all(bytes))
+}
+
 /// Writes a temporary file next to the file and renames it at the end, so that nobody reads a partial file.
 fn write_atomically(
     file: &Path,

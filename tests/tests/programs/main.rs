@@ -7,6 +7,7 @@ mod dump;
 mod examples;
 mod first_image;
 mod fly;
+mod hashes;
 mod measure;
 mod nodes;
 mod pages;

@@ -88,6 +88,24 @@ pub(crate) struct DumpArgs {
     /// Compare two JSON dumps instead of rendering; the format is text, json or html
     #[arg(long, num_args = 2, value_names = ["A.json", "B.json"], conflicts_with = "DrawArgs")]
     pub(crate) diff: Option<Vec<PathBuf>>,
+    /// With --diff: numbers of textures and buffers that differ by at most T times the larger one (or times 1) are equal
+    #[arg(long, value_name = "T", requires = "diff", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(value_parser = tolerance)]
+    pub(crate) tolerance: f64,
+    /// Draw the frame, write a hash of each version of each texture and buffer into the JSON file, and their values into a file next to it,
+    /// OUTPUT with the extension `values`: --diff then names the first pass that writes other values from equal inputs
+    #[arg(long, requires = "output", conflicts_with_all = ["diff", "timings"])]
+    pub(crate) hashes: bool,
+    /// With --hashes: the largest size of the file of values in MiB; versions that no longer fit have only a hash
+    #[arg(
+        long,
+        value_name = "MIB",
+        requires = "hashes",
+        default_value_t = 256,
+        allow_negative_numbers = true
+    )]
+    #[arg(value_parser = clap::value_parser!(u32).range(0..=4096))]
+    pub(crate) values_mib: u32,
     /// The output file; missing directories are created. Default: standard output
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
@@ -279,6 +297,11 @@ pub(crate) enum Format {
 }
 
 /// Parses frames per second.
+fn tolerance(text: &str) -> Result<f64, String> {
+    let tolerance = text.parse().ok().filter(|tolerance| (0.0..=1.0).contains(tolerance));
+    tolerance.ok_or_else(|| "expected a number from 0 to 1".into())
+}
+
 fn frames_per_second(text: &str) -> Result<f64, String> {
     let fps = text.parse().ok().filter(|fps| (0.01..=10_000.0).contains(fps));
     fps.ok_or_else(|| "expected frames per second, 0.01 to 10000".to_owned())

@@ -22,7 +22,6 @@ pub use capture::{FrameCapture, PendingCapture};
 pub use checked::FailedFrame;
 pub use read_back::{ReadBack, ReadBackRequest};
 pub use values::PendingValues;
-pub use visit::Contained;
 
 use crate::compiled::Compiled;
 use crate::error::Error;

@@ -3,6 +3,7 @@
 use super::Executed;
 use super::read_back::{ReadBack, TexturePart};
 use super::record::prepare;
+use crate::capture::Contained;
 use crate::compile::keeping;
 use crate::compiled::Compiled;
 use crate::context::{Bodies, Recording};
@@ -11,24 +12,9 @@ use crate::desc::{ResourceDesc, TextureDesc};
 use crate::error::Error;
 use crate::graph::Graph;
 use crate::handle::{PassId, ResourceId};
-use crate::subresource::{Aspect, Subresource};
+use crate::subresource::{Aspect, Rect, Subresource};
 use std::sync::Arc;
 use wgpu_types::TextureUsages;
-
-/// The contents of a part of a texture or buffer: what a pass wrote, or what was there when the frame began.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Contained {
-    /// The pass that wrote it; `None` for an import or a history when the frame begins.
-    pub pass: Option<PassId>,
-    /// The texture or buffer.
-    pub resource: ResourceId,
-    /// The version.
-    pub version: u32,
-    /// The part: of a texture one mip level and one aspect.
-    pub part: Subresource,
-    /// The bytes, for textures in rows from the top and layer by layer without padding, or the reason why there are none.
-    pub bytes: Result<Vec<u8>, String>,
-}
 
 impl Compiled<'_> {
     /// Records, submits and waits for the frame pass by pass, and calls `visit` with all that each pass has written, and first with what
@@ -134,12 +120,36 @@ fn initial(recording: &Recording<'_>, encoder: &mut wgpu::CommandEncoder) -> Vec
 struct Pending {
     contained: Contained,
     copied: Option<ReadBack>,
+    /// What is kept of the copy, if that is more than the part.
+    crop: Option<Crop>,
+}
+
+/// A rectangle of layers whose texels have some bytes.
+struct Crop {
+    rect: Rect,
+    /// Size of the layers, texels.
+    size: [u32; 2],
+    texel_bytes: u32,
+}
+
+impl Crop {
+    fn apply(&self, bytes: &[u8]) -> Vec<u8> {
+        let [width, height] = self.size.map(|side| side as usize);
+        let Rect { x, y, width: columns, height: rows } = self.rect;
+        let texel = self.texel_bytes as usize;
+        let first = x as usize * texel;
+        let layers = bytes.chunks_exact((width * height * texel).max(1));
+        let kept =
+            layers.flat_map(|layer| layer.chunks_exact(width * texel).skip(y as usize).take(rows as usize));
+        kept.flat_map(|row| &row[first..first + columns as usize * texel]).copied().collect()
+    }
 }
 
 impl Pending {
     fn wait(mut self, device: &wgpu::Device) -> Result<Contained, Error> {
         if let Some(copied) = self.copied {
-            self.contained.bytes = Ok(copied.wait(device)?);
+            let bytes = copied.wait(device)?;
+            self.contained.bytes = Ok(self.crop.map_or_else(|| bytes.clone(), |crop| crop.apply(&bytes)));
         }
         Ok(self.contained)
     }
@@ -155,21 +165,25 @@ fn copies(
     let decl = &recording.plan.decl;
     let (device, name) = (recording.device, decl.resource_name(resource));
     let mut pending = Vec::new();
-    let mut add = |part, copied: Result<ReadBack, Error>| {
+    let mut add = |part, copied: Result<ReadBack, Error>, crop| {
         let (copied, bytes) = match copied {
             Ok(copied) => (Some(copied), Ok(Vec::new())),
             Err(Error::ReadBack { problem, .. }) => (None, Err(problem)),
             Err(error) => (None, Err(error.to_string())),
         };
-        pending.push(Pending { contained: Contained { pass, resource, version, part, bytes }, copied });
+        pending.push(Pending { contained: Contained { pass, resource, version, part, bytes }, copied, crop });
     };
     match decl.resource(resource).desc {
         ResourceDesc::Texture(desc) => {
             for part in mips_and_aspects(&desc, part) {
-                let copied = TexturePart::from_part(name, &desc, &part).and_then(|copied_part| {
+                // Depth and stencil can only be copied whole.
+                let is_depth = desc.format.is_depth_stencil_format();
+                let crop = part.rect.filter(|_| is_depth).and_then(|rect| crop(&desc, part, rect));
+                let whole = if crop.is_some() { Subresource { rect: None, ..part } } else { part };
+                let copied = TexturePart::from_part(name, &desc, &whole).and_then(|copied_part| {
                     ReadBack::texture(device, encoder, name, recording.texture(resource)?, &copied_part)
                 });
-                add(part, copied);
+                add(part, copied, crop);
             }
         }
         ResourceDesc::Buffer(desc) => {
@@ -177,10 +191,22 @@ fn copies(
             let copied = recording
                 .buffer(resource)
                 .and_then(|buffer| ReadBack::buffer(device, encoder, name, buffer, start..end));
-            add(part, copied);
+            add(part, copied, None);
         }
     }
     pending
+}
+
+/// Returns what a rectangle keeps of the copy of a mip level of an aspect.
+fn crop(desc: &TextureDesc, part: Subresource, rect: Rect) -> Option<Crop> {
+    let aspect = match part.aspect {
+        Aspect::All => wgpu::TextureAspect::All,
+        Aspect::Depth => wgpu::TextureAspect::DepthOnly,
+        Aspect::Stencil => wgpu::TextureAspect::StencilOnly,
+    };
+    let size = desc.size.mip_level_size(part.first_mip(), desc.dimension);
+    let texel_bytes = desc.format.block_copy_size(Some(aspect))?;
+    Some(Crop { rect, size: [size.width, size.height], texel_bytes })
 }
 
 /// Splits a part into its mip levels and aspects.
@@ -192,6 +218,9 @@ fn mips_and_aspects(desc: &TextureDesc, part: Subresource) -> Vec<Subresource> {
         Aspect::Stencil => &[Aspect::Stencil],
     };
     let (first, end) = part.mips.unwrap_or((0, desc.mip_levels));
-    let mips = (first..end).map(|mip| Subresource { mips: Some((mip, mip + 1)), ..part });
+    let mips = (first..end).map(|mip| match desc.mip_levels {
+        1 => part,
+        _ => Subresource { mips: Some((mip, mip + 1)), ..part },
+    });
     mips.flat_map(|part| aspects.iter().map(move |&aspect| Subresource { aspect, ..part })).collect()
 }

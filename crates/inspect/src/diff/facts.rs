@@ -2,6 +2,7 @@
 
 use super::Subject;
 use crate::Error;
+use crate::contents::DumpedContents;
 use serde::Deserialize as _;
 use serde_json::Value;
 use shadowgraph_core::describe::bytes;
@@ -15,6 +16,7 @@ pub(super) type Facts = BTreeMap<(Subject, String), Vec<String>>;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Dump {
     pub(super) facts: Facts,
+    pub(super) contents: Option<DumpedContents>,
 }
 
 impl Dump {
@@ -41,8 +43,26 @@ impl Dump {
             }
             None => return Err(invalid_dump("missing field `schema`")),
         }
-        let facts = Reader { dump, facts: Facts::new() }.read();
-        Ok(Self { facts: facts.ok_or_else(|| invalid_dump("a field is missing"))? })
+        let missing = || invalid_dump("a field is missing");
+        let nodes = node_paths(dump).ok_or_else(missing)?;
+        let path = |thing: &Value| path(thing, &nodes);
+        let facts = Reader { dump, facts: Facts::new() }.read(&nodes).ok_or_else(missing)?;
+        Ok(Self { facts, contents: DumpedContents::from_dump(dump, &path)? })
+    }
+
+    /// Adds the file of values that was written next to the dump (see [`ContentsRecorder`](crate::ContentsRecorder)).
+    ///
+    /// # Errors
+    /// [`Error::Dump`] if the dump has no contents, or the file is not one of values.
+    pub fn with_values(mut self, values: Vec<u8>) -> Result<Self, Error> {
+        let contents = self.contents.as_mut().ok_or_else(|| invalid_dump("no field `contents`"))?;
+        contents.set_values(values)?;
+        Ok(self)
+    }
+
+    /// Returns whether the dump says what passes have written.
+    pub fn has_contents(&self) -> bool {
+        self.contents.is_some()
     }
 }
 
@@ -57,22 +77,13 @@ struct Reader<'d> {
 
 impl Reader<'_> {
     /// Reads all facts; `None` if a field is missing.
-    fn read(mut self) -> Option<Facts> {
+    fn read(mut self, nodes: &[String]) -> Option<Facts> {
         self.summary()?;
         let plan = self.dump.get("plan")?;
-        let nodes = plan.get("nodes")?.as_array()?;
-        let paths: Vec<String> =
-            (0..nodes.len()).map(|node| node_path(nodes, node)).collect::<Option<_>>()?;
-        for path in &paths {
+        for path in nodes {
             self.add(Subject::Node, path.clone(), String::new());
         }
-        let path = |thing: &Value| {
-            let name = text(thing, "name")?;
-            Some(match thing.get("node").and_then(Value::as_u64) {
-                Some(node) => format!("{}/{name}", paths.get(node as usize)?),
-                None => name.to_owned(),
-            })
-        };
+        let path = |thing: &Value| path(thing, nodes);
         let resources = plan.get("resources")?.as_array()?;
         for resource in resources {
             self.add(Subject::Resource, path(resource)?, describe_resource(resource)?);
@@ -115,6 +126,21 @@ impl Reader<'_> {
 
 fn text<'v>(value: &'v Value, key: &str) -> Option<&'v str> {
     value.get(key)?.as_str()
+}
+
+/// Returns the paths of all nodes.
+fn node_paths(dump: &Value) -> Option<Vec<String>> {
+    let nodes = dump.get("plan")?.get("nodes")?.as_array()?;
+    (0..nodes.len()).map(|node| node_path(nodes, node)).collect()
+}
+
+/// Returns the path of a pass or a resource.
+fn path(thing: &Value, nodes: &[String]) -> Option<String> {
+    let name = text(thing, "name")?;
+    Some(match thing.get("node").and_then(Value::as_u64) {
+        Some(node) => format!("{}/{name}", nodes.get(node as usize)?),
+        None => name.to_owned(),
+    })
 }
 
 fn node_path(nodes: &[Value], node: usize) -> Option<String> {

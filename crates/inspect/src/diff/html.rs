@@ -20,6 +20,9 @@ impl Diff {
             let _ = write!(out, "<a href=\"#{0}\">{changes} {0}</a> ", subject.plural());
         }
         out.push_str("differ.</p>\n");
+        if let Some(contents) = &self.contents {
+            let _ = writeln!(out, "<p>{}</p>", escape(contents.to_text().trim()));
+        }
         for subject in Subject::ALL {
             let _ = writeln!(out, "<section id=\"{0}\">\n<h2>{0}</h2>", subject.plural());
             if self.about(subject).next().is_none() {

@@ -63,6 +63,25 @@ impl Renderer {
     }
 }
 
+impl Renderer {
+    /// Draws a view like [`draw`](Self::draw), pass by pass, and records all that its passes write.
+    ///
+    /// # Errors
+    /// As `draw`.
+    pub fn record_contents(
+        &mut self,
+        gpu: &Gpu,
+        options: &ViewOptions,
+        recorder: &mut ContentsRecorder,
+    ) -> Result<RenderedFrame, crate::Error> {
+        let (frame, _) = self.draw_with(gpu, options, |compiled, graph| {
+            let mut add = |contained| recorder.add(&contained);
+            Ok(compiled.execute_visited(graph, &gpu.device, &gpu.queue, &mut add)?)
+        })?;
+        Ok(frame)
+    }
+}
+
 impl InspectedFrame {
     /// Returns the HTML page of the frame: its plan, times and textures, its lights, and the volumes of its shadow maps.
     pub fn page(&self, scene_lights: &[Light], options: &ViewOptions) -> HtmlPage<'_> {

@@ -1,7 +1,5 @@
 //! Snapshots of what passes write, taken after each pass.
 
-mod texels;
-
 use super::Executed;
 use super::read_back::{ReadBack, TexturePart};
 use super::record::record;
@@ -16,6 +14,7 @@ use crate::graph::Graph;
 use crate::handle::{PassId, ResourceId};
 use crate::plan::Plan;
 use crate::subresource::{Aspect, Subresource};
+use crate::texels;
 use std::ops::Range;
 use std::sync::Arc;
 use wgpu_types::TextureDimension;

@@ -1,8 +1,7 @@
 //! Contents that passes write, visited pass by pass.
 
 use super::gpu::Gpu;
-use crate::execute::Contained;
-use crate::{Contents, Format, Frame, Graph, Plan, Rect, Subresource, TextureDesc};
+use crate::{Contained, Contents, Format, Frame, Graph, Plan, Rect, Subresource, TextureDesc};
 
 /// Draws a frame and returns what was visited, with the names of pass and resource.
 fn visit<'f>(gpu: &'f Gpu, declare: impl Fn(&mut Frame<'f>)) -> (Vec<Contained>, Plan) {
@@ -36,6 +35,30 @@ fn each_version_is_visited_after_its_pass_with_the_part_that_was_written() {
         assert_eq!((bytes[0].len(), bytes[1].len()), (32, 6));
         if gpu.draws {
             assert!(bytes[0].iter().all(|&byte| byte == 51) && bytes[1].iter().all(|&byte| byte == 255));
+        }
+    }
+}
+
+#[test]
+fn a_rectangle_of_depth_is_cut_out_of_a_copy_of_all() {
+    for gpu in Gpu::all() {
+        let (visited, _) = visit(&gpu, |frame| {
+            let mut depth =
+                frame.create_texture("depth", TextureDesc::d2(8, 4, Format::Depth32Float).layers(2));
+            frame
+                .render_pass("all")
+                .subresource(Subresource::FULL.layer(1))
+                .depth(&mut depth, Contents::clear_depth(0.5));
+            let tile = Subresource::FULL.layer(1).rect(Rect::new(5, 1, 3, 2));
+            frame.render_pass("tile").subresource(tile).depth(&mut depth, Contents::clear_depth(0.25));
+            let mut pass = frame.render_pass("kept");
+            pass.subresource(Subresource::FULL.layer(1)).depth_read(&depth);
+            pass.keep();
+        });
+        let bytes: Vec<_> = visited.iter().map(|contained| contained.bytes.clone().unwrap()).collect();
+        assert_eq!((bytes[0].len(), bytes[1].len()), (8 * 4 * 4, 3 * 2 * 4));
+        if gpu.draws {
+            assert!(bytes[1].as_chunks().0.iter().all(|&depth| f32::from_le_bytes(depth) == 0.25));
         }
     }
 }

@@ -1,14 +1,17 @@
 //! Decoding texels of any format to numbers.
 
+#[cfg(feature = "gpu")]
 use crate::capture::{TexelValues, Texels};
 use crate::desc::Format;
+use crate::subresource::Aspect;
 use half::f16;
 
 /// Texels of a side that are kept at most.
+#[cfg(feature = "gpu")]
 const MAX_SIDE_PX: u32 = 320;
 
 /// The memory format of a texel's channels.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Channel {
     Unorm8,
     Snorm8,
@@ -24,41 +27,85 @@ enum Channel {
     Float32,
 }
 
+/// How texels of a format lie in memory, and what a shader reads from them.
+///
+/// ```
+/// use shadowgraph_core::{Aspect, Format, TexelLayout};
+/// let layout = TexelLayout::for_format(Format::Bgra8Unorm, Aspect::All).ok_or("a plain format")?;
+/// assert_eq!(layout.values(&[0, 51, 255, 255]), Some(vec![1.0, 0.2, 0.0, 1.0]));
+/// # Ok::<(), &str>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TexelLayout {
+    channel: Channel,
+    channels: u32,
+    blue_first: bool,
+}
+
+impl TexelLayout {
+    /// Returns the layout of an aspect of a format; `None` for compressed and packed formats, and for depth of 24 bits.
+    pub fn for_format(format: Format, aspect: Aspect) -> Option<Self> {
+        let format = match aspect {
+            Aspect::Stencil => Format::Stencil8,
+            Aspect::All | Aspect::Depth => format,
+        };
+        let (channel, channels, blue_first) = layout(format)?;
+        Some(Self { channel, channels, blue_first })
+    }
+
+    /// Returns the bytes of a texel.
+    pub fn bytes(self) -> usize {
+        self.channel.bytes() * self.channels as usize
+    }
+
+    /// Returns the channels of a texel, red first; sRGB formats as they are stored. `None` for too few bytes.
+    pub fn values(self, texel: &[u8]) -> Option<Vec<f64>> {
+        self.channel_offsets(0).map(|at| self.channel.value(texel.get(at..)?)).collect()
+    }
+
+    /// Returns where the channels of the texel at a byte begin, red first.
+    fn channel_offsets(self, texel: usize) -> impl Iterator<Item = usize> {
+        let order: &[usize] = if self.blue_first { &[2, 1, 0, 3] } else { &[0, 1, 2, 3] };
+        order[..self.channels as usize].iter().map(move |index| texel + index * self.channel.bytes())
+    }
+}
+
 /// Keeps evenly spaced texels of an image and decodes them; the error says why they cannot be shown.
-pub(super) fn decode(format: Format, full_px: [u32; 2], bytes: &[u8]) -> Result<Texels, String> {
-    let Some((channel, channels, blue_first)) = layout(format) else {
+#[cfg(feature = "gpu")]
+pub(crate) fn decode(format: Format, full_px: [u32; 2], bytes: &[u8]) -> Result<Texels, String> {
+    let aspect = if format == Format::Stencil8 { Aspect::Stencil } else { Aspect::All };
+    let Some(layout) = TexelLayout::for_format(format, aspect) else {
         return Err(format!("texels of {format:?} cannot be shown"));
     };
-    let texel_bytes = channel.bytes() * channels as usize;
+    let texel_bytes = layout.bytes();
     let size_px = kept_size(full_px);
     let row = full_px[0] as usize * texel_bytes;
     let row_offsets = |y: u32| {
         let row_start = nearest(y, size_px[1], full_px[1]) as usize * row;
         (0..size_px[0]).map(move |x| row_start + nearest(x, size_px[0], full_px[0]) as usize * texel_bytes)
     };
-    let offsets = (0..size_px[1]).flat_map(row_offsets);
-    let order: &[usize] = if blue_first { &[2, 1, 0, 3] } else { &[0, 1, 2, 3] };
-    let channel_offsets =
-        |texel: usize| order[..channels as usize].iter().map(move |index| texel + index * channel.bytes());
+    let offsets = (0..size_px[1]).flat_map(row_offsets).flat_map(|texel| layout.channel_offsets(texel));
     let missing = || format!("expected {texel_bytes} bytes per texel");
-    let values = if let Channel::Unorm8 = channel {
-        let bytes: Option<Vec<u8>> =
-            offsets.flat_map(channel_offsets).map(|at| bytes.get(at).copied()).collect();
+    let values = if let Channel::Unorm8 = layout.channel {
+        let bytes: Option<Vec<u8>> = offsets.map(|at| bytes.get(at).copied()).collect();
         TexelValues::Bytes(bytes.ok_or_else(missing)?)
     } else {
-        let floats: Option<Vec<f32>> =
-            offsets.flat_map(channel_offsets).map(|at| channel.value(bytes.get(at..)?)).collect();
+        let value = |at| Some(layout.channel.value(bytes.get(at..)?)? as f32);
+        let floats: Option<Vec<f32>> = offsets.map(value).collect();
         TexelValues::Floats(floats.ok_or_else(missing)?)
     };
-    Ok(Texels { size_px, channels, is_depth: format.is_depth_stencil_format(), values })
+    let is_depth = format.is_depth_stencil_format();
+    Ok(Texels { size_px, channels: layout.channels, is_depth, values })
 }
 
+#[cfg(feature = "gpu")]
 /// Returns the full size, scaled down so that no side is too long.
 fn kept_size([width, height]: [u32; 2]) -> [u32; 2] {
     let longest = width.max(height).max(MAX_SIDE_PX);
     [width, height].map(|side| (u64::from(side) * u64::from(MAX_SIDE_PX) / u64::from(longest)).max(1) as u32)
 }
 
+#[cfg(feature = "gpu")]
 /// Returns the index of the texel in the middle of those that a kept texel represents.
 fn nearest(index: u32, kept: u32, full: u32) -> u32 {
     let middle = (2 * u64::from(index) + 1) * u64::from(full) / (2 * u64::from(kept));
@@ -121,28 +168,28 @@ impl Channel {
         }
     }
 
-    fn value(self, bytes: &[u8]) -> Option<f32> {
+    fn value(self, bytes: &[u8]) -> Option<f64> {
         let byte = *bytes.first()?;
         let two = || bytes.first_chunk().copied();
         let four = || bytes.first_chunk().copied();
         Some(match self {
-            Self::Unorm8 => f32::from(byte) / 255.0,
-            Self::Snorm8 => (f32::from(byte as i8) / 127.0).max(-1.0),
+            Self::Unorm8 => f64::from(byte) / 255.0,
+            Self::Snorm8 => (f64::from(byte as i8) / 127.0).max(-1.0),
             Self::Uint8 => byte.into(),
             Self::Sint8 => (byte as i8).into(),
-            Self::Unorm16 => f32::from(u16::from_le_bytes(two()?)) / 65535.0,
-            Self::Snorm16 => (f32::from(i16::from_le_bytes(two()?)) / 32767.0).max(-1.0),
+            Self::Unorm16 => f64::from(u16::from_le_bytes(two()?)) / 65535.0,
+            Self::Snorm16 => (f64::from(i16::from_le_bytes(two()?)) / 32767.0).max(-1.0),
             Self::Uint16 => u16::from_le_bytes(two()?).into(),
             Self::Sint16 => i16::from_le_bytes(two()?).into(),
-            Self::Float16 => f16::from_le_bytes(two()?).to_f32(),
-            Self::Uint32 => u32::from_le_bytes(four()?) as f32,
-            Self::Sint32 => i32::from_le_bytes(four()?) as f32,
-            Self::Float32 => f32::from_le_bytes(four()?),
+            Self::Float16 => f16::from_le_bytes(two()?).to_f64(),
+            Self::Uint32 => u32::from_le_bytes(four()?).into(),
+            Self::Sint32 => i32::from_le_bytes(four()?).into(),
+            Self::Float32 => f32::from_le_bytes(four()?).into(),
         })
     }
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "gpu"))]
 mod tests {
     #![allow(clippy::unwrap_used, clippy::panic, reason = "tests")]
     use super::*;
