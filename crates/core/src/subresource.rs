@@ -169,6 +169,17 @@ impl Subresource {
         self.layers.map_or(0, |(first, _)| first)
     }
 
+    /// Returns the layers of a mip level of a texture, or the slices of a 3D texture.
+    #[cfg(feature = "gpu")]
+    pub(crate) fn layer_range(&self, desc: &TextureDesc, mip: u32) -> Range<u32> {
+        let all = match desc.dimension {
+            TextureDimension::D3 => (desc.size.depth_or_array_layers >> mip).max(1),
+            _ => desc.size.depth_or_array_layers,
+        };
+        let (first, end) = self.layers.unwrap_or((0, all));
+        first..end.min(all)
+    }
+
     /// Returns the first byte of a buffer.
     pub fn first_byte(&self) -> u64 {
         self.bytes.map_or(0, |(first, _)| first)

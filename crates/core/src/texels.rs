@@ -98,15 +98,15 @@ pub(crate) fn decode(format: Format, full_px: [u32; 2], bytes: &[u8]) -> Result<
     Ok(Texels { size_px, channels: layout.channels, is_depth, values })
 }
 
-#[cfg(feature = "gpu")]
 /// Returns the full size, scaled down so that no side is too long.
+#[cfg(feature = "gpu")]
 fn kept_size([width, height]: [u32; 2]) -> [u32; 2] {
     let longest = width.max(height).max(MAX_SIDE_PX);
     [width, height].map(|side| (u64::from(side) * u64::from(MAX_SIDE_PX) / u64::from(longest)).max(1) as u32)
 }
 
-#[cfg(feature = "gpu")]
 /// Returns the index of the texel in the middle of those that a kept texel represents.
+#[cfg(feature = "gpu")]
 fn nearest(index: u32, kept: u32, full: u32) -> u32 {
     let middle = (2 * u64::from(index) + 1) * u64::from(full) / (2 * u64::from(kept));
     middle as u32

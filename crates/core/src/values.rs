@@ -25,6 +25,7 @@ impl ValueCheck {
     }
 
     /// Returns the range of a texture, if one is declared.
+    #[cfg(feature = "gpu")]
     pub(crate) fn range_of(&self, texture: &str) -> Option<RangeInclusive<f32>> {
         self.ranges.iter().rev().find(|(name, _)| name == texture).map(|(_, range)| range.clone())
     }

@@ -7,7 +7,7 @@ use crate::compile::keeping;
 use crate::compiled::Compiled;
 use crate::context::Recording;
 use crate::declaration::{AccessDecl, Declaration};
-use crate::desc::{ResourceDesc, TextureDesc};
+use crate::desc::ResourceDesc;
 use crate::error::Error;
 use crate::handle::{PassId, ResourceId};
 use crate::internal::{COUNT_WORDS, ImageKind, ImagePart, TEXEL_WORDS, ValueChecks, ValueStep};
@@ -176,20 +176,11 @@ fn images(decl: &Declaration, access: &AccessDecl, version: u32) -> Vec<Image> {
             let rect = part.rect.map_or(all, |rect| [rect.x, rect.y, rect.width, rect.height]);
             let channels =
                 if desc.format.has_depth_aspect() { 1 } else { u32::from(desc.format.components()) };
-            let layers = layers(&desc, part.layers, mip);
+            let layers = part.layer_range(&desc, mip);
             let size = [size.width, size.height];
             Image { texture: access.resource, version, kind, mip, layers, rect, size, channels }
         })
         .collect()
-}
-
-fn layers(desc: &TextureDesc, part: Option<(u32, u32)>, mip: u32) -> Range<u32> {
-    let all = match desc.dimension {
-        wgpu_types::TextureDimension::D3 => (desc.size.depth_or_array_layers >> mip).max(1),
-        _ => desc.size.depth_or_array_layers,
-    };
-    let (first, end) = part.unwrap_or((0, all));
-    first..end.min(all)
 }
 
 impl CheckedPart {

@@ -149,7 +149,10 @@ impl Pending {
     fn wait(mut self, device: &wgpu::Device) -> Result<Contained, Error> {
         if let Some(copied) = self.copied {
             let bytes = copied.wait(device)?;
-            self.contained.bytes = Ok(self.crop.map_or_else(|| bytes.clone(), |crop| crop.apply(&bytes)));
+            self.contained.bytes = Ok(match self.crop {
+                Some(crop) => crop.apply(&bytes),
+                None => bytes,
+            });
         }
         Ok(self.contained)
     }

@@ -17,7 +17,6 @@ use crate::subresource::{Aspect, Subresource};
 use crate::texels;
 use std::ops::Range;
 use std::sync::Arc;
-use wgpu_types::TextureDimension;
 
 /// Layers of a texture beyond these are not captured.
 const MAX_LAYERS: u32 = 16;
@@ -229,12 +228,8 @@ fn tiles(plan: &Plan, pass: PassId, access: &AccessDecl) -> Vec<SnapshotTile> {
 }
 
 fn layers(desc: &TextureDesc, part: Subresource, mip: u32) -> Range<u32> {
-    let all = match desc.dimension {
-        TextureDimension::D3 => (desc.size.depth_or_array_layers >> mip).max(1),
-        _ => desc.size.depth_or_array_layers,
-    };
-    let (first, end) = part.layers.unwrap_or((0, all));
-    first..end.min(all).min(first + MAX_LAYERS)
+    let Range { start, end } = part.layer_range(desc, mip);
+    start..end.min(start + MAX_LAYERS)
 }
 
 /// Returns the captured aspect: depth of a combined depth-stencil format, unless the pass writes only the stencil.
