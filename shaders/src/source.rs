@@ -142,6 +142,7 @@ pub(crate) const MODULES: &[ModuleSource] = &[
     file!("shadows/variant.wgsl"),
     file!("shadows/views.wgsl"),
     file!("surface.wgsl"),
+    file!("tint_density.wgsl"),
     file!("view.wgsl"),
 ];
 

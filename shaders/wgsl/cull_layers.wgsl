@@ -25,7 +25,8 @@ struct CullLayers {
     view_capacity: u32,
     // The flags of casters that move.
     moving: u32,
-    padding: u32,
+    // The flags of casters that tint.
+    tinting: u32,
 }
 
 const GROUP: u32 = 64u;
@@ -67,6 +68,14 @@ struct Candidate {
     casters: u32,
 }
 
+// The views that have a caster. Those that tint are in all views with moving casters, which may hide them.
+fn casters_of(flags: u32) -> u32 {
+    if (flags & cull.moving) != 0u {
+        return CASTERS_MOVING;
+    }
+    return CASTERS_STATIC | select(0u, CASTERS_MOVING, (flags & cull.tinting) != 0u);
+}
+
 fn candidate(number: u32) -> Candidate {
     var found: Candidate;
     if number < cull.instance_count {
@@ -74,7 +83,7 @@ fn candidate(number: u32) -> Candidate {
         let batch = batches[instance.flags.x];
         let flags = batch.flags | instance.flags.y;
         if (flags & cull.required) == cull.required && (flags & cull.excluded) == 0u {
-            found.casters = select(CASTERS_STATIC, CASTERS_MOVING, (flags & cull.moving) != 0u);
+            found.casters = casters_of(flags);
         }
         found.batch = instance.flags.x;
         found.box = world_bounds(instance, batch);

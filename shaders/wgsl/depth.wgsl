@@ -10,8 +10,7 @@
 #import shadowgraph::noise::pixel_noise
 #import shadowgraph::draw::{Vertex, world_position, clip_position}
 #import shadowgraph::material::{
-    BASE_COLOR, MATERIAL_TRANSMIT, TextureCoordinates, base_color, caster_alpha, caster_cutoff, hole_cutoff, material_has,
-    texture_uv,
+    BASE_COLOR, TextureCoordinates, base_color, caster_alpha, caster_cutoff, hole_cutoff, texture_uv, transmittance,
 }
 
 // The used members of a ShadowView, or of a View if nothing is dithered; bound at a dynamic offset.
@@ -87,12 +86,8 @@ fn alpha_of(in: DepthVertex) -> f32 {
     return color_of(in).a;
 }
 
-// The transmitted fraction of the light, tinted more by denser surfaces, and wholly by glass.
 fn transmitted(in: DepthVertex) -> vec4f {
-    let color = color_of(in);
-    let alpha = saturate(color.a);
-    let density = select(alpha * (2.0 - alpha), 1.0, material_has(MATERIAL_TRANSMIT));
-    return vec4f((1.0 - alpha) * mix(vec3f(1.0), saturate(color.rgb), density), 1.0);
+    return vec4f(transmittance(color_of(in)), 1.0);
 }
 
 fn covers(in: DepthVertex) -> bool {

@@ -15,7 +15,11 @@ struct LayerView {
     tag: vec2u,
     // The casters that are drawn: the sum of CASTERS_*.
     casters: u32,
-    padding: array<u32, 3>,
+    // The layer of the buffers of tints, which can outlive those of depths.
+    tint_layer: u32,
+    // The bias of depths away from the light, relative to their slope.
+    slope_bias: f32,
+    padding: u32,
 }
 
 struct LayerViews {

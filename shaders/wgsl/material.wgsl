@@ -150,6 +150,13 @@ fn hole_cutoff() -> f32 {
     return select(0.5, material.alpha_cutoff, material_has(MATERIAL_MASK));
 }
 
+// The fraction of the light that passes a translucent surface, tinted more by denser surfaces, and wholly by glass.
+fn transmittance(color: vec4f) -> vec3f {
+    let alpha = saturate(color.a);
+    let density = select(alpha * (2.0 - alpha), 1.0, material_has(MATERIAL_TRANSMIT));
+    return (1.0 - alpha) * mix(vec3f(1.0), saturate(color.rgb), density);
+}
+
 fn caster_cutoff() -> f32 {
     return material.caster_cutoff;
 }

@@ -349,6 +349,8 @@ fn give_place(needed: ListedPage, kind: u32, rank: u32) {
     let texel = (needed.page.place + level.base) * i32(PAGE_TEXELS) - i32(BORDER_TEXELS);
     page_views.views[rank].noise_px = vec2u(texel & vec2i(1023));
     page_views.views[rank].casters = select(CASTERS_STATIC, CASTERS_MOVING, kind == COMPOSITE);
+    page_views.views[rank].tint_layer = place;
+    page_views.views[rank].slope_bias = projections[needed.page.projection].caster_slope_bias;
     if kind == COMPOSITE {
         page_views.views[rank].tag.y = static_depths(needed.entry);
     }

@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 use bytemuck::{Pod, Zeroable};
 use shadowgraph_core::{Bind, Buffer, BufferDesc, Contents, Error as GraphError, Frame, RenderContext};
 use shadowgraph_scene::gpu::{CullFlags, Draw, DrawPipeline, GpuScene, LAYER_DRAW_BYTES, LayerDraws};
-use shadowgraph_shadows::{LayerTokens, LayeredInstances};
+use shadowgraph_shadows::{LayerTokens, LayeredInstances, TintTokens};
 
 use crate::error::Error;
 use crate::shader::module;
@@ -41,7 +41,7 @@ struct CullLayers {
     pair_capacity: u32,
     view_capacity: u32,
     moving: u32,
-    padding: u32,
+    tinting: u32,
 }
 
 /// The entry points, in their order.
@@ -104,7 +104,7 @@ impl LayerCullPass {
             pair_capacity,
             view_capacity: query.capacity,
             moving: CullFlags::MOVING.bits(),
-            padding: 0,
+            tinting: CullFlags::TINTING_CASTERS.bits(),
         };
         let block = frame.uniform(bytemuck::bytes_of(&block));
         let batches = u64::from(inputs.batch_count.max(1));
@@ -158,7 +158,8 @@ impl LayerCullPass {
     }
 }
 
-/// Records the draws of layers, of the batches that have a pipeline, and returns the number of draw calls. `layout` is that of group 0.
+/// Records the draws of layers, of the batches that have a pipeline, and returns the number of draw calls. `layout` is that of group 0, with
+/// tints or without.
 ///
 /// # Errors
 /// For tokens of another pass.
@@ -166,11 +167,12 @@ pub fn draw_layers<'p>(
     ctx: &mut RenderContext<'_>,
     scene: &GpuScene,
     layout: &wgpu::BindGroupLayout,
-    tokens: LayerTokens,
+    (tokens, tints): (LayerTokens, Option<TintTokens>),
     pipeline_for: &dyn Fn(&Draw) -> Option<DrawPipeline<'p>>,
 ) -> Result<u32, GraphError> {
     let batch = Bind::BufferRange(tokens.draws, 0..LAYER_DRAW_BYTES);
-    let bindings = [Bind::Buffer(tokens.views), Bind::Buffer(tokens.depths), batch];
+    let mut bindings = vec![Bind::Buffer(tokens.views), Bind::Buffer(tokens.depths), batch];
+    bindings.extend(tints.into_iter().flat_map(|tints| [tints.depths, tints.densities]).map(Bind::Buffer));
     let views = ctx.bind_group(layout, &bindings)?;
     let instances = Bind::ExternalBuffer(scene.cull_inputs().instances);
     let pairs = ctx.bind_group(&scene.layouts().draw, &[instances, Bind::Buffer(tokens.pairs)])?;

@@ -10,6 +10,7 @@ use shadowgraph_shadows::rays::GpuRayScene;
 use shadowgraph_shadows::{
     CasterPass, CasterQuery, CasterTarget, CasterView, CulledInstances, CulledTokens, DepthFormat,
     GpuCasters, LayerTokens, LayeredCasters, LayeredInstances, Mobility, ShadowCasters, TINT_FORMAT,
+    TintTokens,
 };
 
 use crate::culling::{CullChoice, Culling};
@@ -120,6 +121,12 @@ impl SceneCasters {
     /// Adds the pass that culls instances on the GPU.
     pub(crate) fn cull<'f>(&'f self, frame: &mut Frame<'f>, views: &[CullView]) -> CulledInstances {
         self.cull.add_to(frame, &self.scene, views, self.culling)
+    }
+
+    /// Returns the pipelines that draw into layers; `None` if a shader does not compose.
+    fn layer_pipelines(&self) -> Option<&LayerPipelines> {
+        let create = || LayerPipelines::new(&self.device, self.scene.layouts()).ok();
+        self.layers.get_or_init(create).as_ref()
     }
 
     /// Returns the pipelines without a bias; maps have no other formats.
@@ -258,10 +265,24 @@ impl LayeredCasters for SceneCasters {
     }
 
     fn draw_layers(&self, ctx: &mut RenderContext<'_>, tokens: LayerTokens) -> Result<u32, GraphError> {
-        let create = || LayerPipelines::new(&self.device, self.scene.layouts()).ok();
-        let Some(pipelines) = self.layers.get_or_init(create) else { return Ok(0) };
+        let Some(pipelines) = self.layer_pipelines() else { return Ok(0) };
         let pipeline_for = |draw: &Draw| pipelines.get(draw.casts);
-        draw_layers(ctx, &self.scene, pipelines.view_layout(), tokens, &pipeline_for)
+        draw_layers(ctx, &self.scene, pipelines.view_layout(), (tokens, None), &pipeline_for)
+    }
+
+    fn any_tints(&self) -> bool {
+        self.scene.any_tints()
+    }
+
+    fn draw_layer_tints(
+        &self,
+        ctx: &mut RenderContext<'_>,
+        tokens: LayerTokens,
+        tints: TintTokens,
+    ) -> Result<u32, GraphError> {
+        let Some(pipelines) = self.layer_pipelines() else { return Ok(0) };
+        let pipeline_for = |draw: &Draw| pipelines.get_tint(draw.casts);
+        draw_layers(ctx, &self.scene, pipelines.tint_layout(), (tokens, Some(tints)), &pipeline_for)
     }
 
     fn all_moving(&self, casters: &mut Vec<u32>) {

@@ -1,12 +1,16 @@
 //! The casters of an engine's scene, for views that passes of a frame write.
 
-use shadowgraph_core::{Buffer, BufferToken, Error as GraphError, Frame, RenderContext};
+use shadowgraph_core::{
+    Buffer, BufferToken, Contents, Error as GraphError, Frame, Pass, RenderContext, Rendering,
+};
 use shadowgraph_scene::Aabb;
 
 /// Casters that are drawn in views that only the GPU knows: each view has a layer of a buffer of depths. See the WGSL module
 /// `shadowgraph::layer_views`. A view has the static casters, the moving ones, or both.
 ///
-/// Layers hold the bits of floats: 1 nearest to the light, 0 farthest and empty. Casters in front of the near plane have depth 1.
+/// Layers hold the bits of floats: 1 nearest to the light, 0 farthest and empty. Casters in front of the near plane have depth 1. Casters that
+/// [tint](crate::ShadowCasters::tints) are drawn into layers of their own; they are found for static views if they are static, and for
+/// views with moving casters in any case, since those may hide them.
 pub trait LayeredCasters: Sync {
     /// Adds the passes that find the casters of each view, and write the number of views that are drawn. There are at most `capacity` views.
     fn cull_layers<'f>(
@@ -16,12 +20,33 @@ pub trait LayeredCasters: Sync {
         capacity: u32,
     ) -> LayeredInstances;
 
-    /// Draws the casters into the layers. The viewport is as large as a layer. Returns the number of draw calls that it recorded, for
+    /// Draws the casters that do not tint into the layers. The viewport is as large as a layer. Returns the number of draw calls that it recorded, for
     /// statistics.
     ///
     /// # Errors
     /// For tokens of another pass.
     fn draw_layers(&self, ctx: &mut RenderContext<'_>, tokens: LayerTokens) -> Result<u32, GraphError>;
+
+    /// Returns whether any caster tints. The default is that none does.
+    fn any_tints(&self) -> bool {
+        false
+    }
+
+    /// Draws the casters that tint into layers of tints, where the depth that the other casters have in their layer is not nearer: keeps the
+    /// nearest depth, and adds the density (see the WGSL module `shadowgraph::tint_density`). Returns the number of draw calls. The default
+    /// draws nothing.
+    ///
+    /// # Errors
+    /// For tokens of another pass.
+    fn draw_layer_tints(
+        &self,
+        ctx: &mut RenderContext<'_>,
+        tokens: LayerTokens,
+        tints: TintTokens,
+    ) -> Result<u32, GraphError> {
+        let _ = (ctx, tokens, tints);
+        Ok(0)
+    }
 
     /// Appends the numbers of all casters that move, ascending.
     fn all_moving(&self, casters: &mut Vec<u32>);
@@ -54,4 +79,31 @@ pub struct LayerTokens {
     pub draws: BufferToken,
     /// The pairs of an instance and a view.
     pub pairs: BufferToken,
+}
+
+impl LayerTokens {
+    /// Declares the accesses of a pass that draws into the layers of some views.
+    pub(crate) fn in_pass(
+        pass: &mut Pass<'_, '_, Rendering>,
+        drawn: &LayeredInstances,
+        views: &Buffer,
+        depths: &mut Buffer,
+    ) -> Self {
+        pass.indirect_buffer(&drawn.draws);
+        Self {
+            views: pass.storage_buffer(views),
+            depths: pass.storage_buffer_mut(depths, Contents::Preserve),
+            draws: pass.storage_buffer(&drawn.draws),
+            pairs: pass.storage_buffer(&drawn.pairs),
+        }
+    }
+}
+
+/// The buffers of layers of tints. A view's layer is its `tint_layer`.
+#[derive(Clone, Copy, Debug)]
+pub struct TintTokens {
+    /// The depth of the nearest caster that tints, as bits of a float, written.
+    pub depths: BufferToken,
+    /// The density of all, written.
+    pub densities: BufferToken,
 }

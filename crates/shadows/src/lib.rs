@@ -54,7 +54,7 @@ pub use cull::{CoveredByFinerCascade, LightSpaceView, ReceiverHull, RedundantCas
 pub use culled::{CulledGroup, CulledInstances, CulledTokens};
 pub use error::Error;
 pub use gpu_casters::{CasterQuery, GpuCasters};
-pub use layered_casters::{LayerTokens, LayeredCasters, LayeredInstances};
+pub use layered_casters::{LayerTokens, LayeredCasters, LayeredInstances, TintTokens};
 pub use lookup_variant::{CommonLookup, LookupSource, LookupVariant, MapUse};
 pub use maps::{DrawnMap, DrawnMaps, ShadowMaps};
 pub use ortho::{OrthoFit, light_from_world};

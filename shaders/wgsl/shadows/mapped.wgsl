@@ -10,7 +10,7 @@
 #import shadowgraph::shadows::colors::cascade_tint
 #import shadowgraph::shadows::tiles::{blend_at, shadow_fade, edge_fade}
 #import shadowgraph::shadows::types::ShadowLight
-#import shadowgraph::shadows::variant::{SHADOWED, SIMPLE}
+#import shadowgraph::shadows::variant::{SHADOWED, SIMPLE, TINTED}
 #import shadowgraph::shadows::views::{light_shadow, light_view}
 
 fn shadow_visibility(light: u32, receiver: Receiver) -> vec3f {
@@ -57,7 +57,11 @@ fn pixel_visibility(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> v
     var i = 0u;
     loop {
         let moved = sampled(tile, light, lookup, footprint, i);
-        sum += filtered(light, receiver, moved) * tint(light, receiver, moved);
+        var visibility = vec3f(filtered(light, receiver, moved));
+        if TINTED && tile.is_tinted == 1u {
+            visibility *= tint(light, receiver, moved);
+        }
+        sum += visibility;
         i++;
         if i >= samples {
             break;

@@ -18,6 +18,8 @@
 // A page that the frame has, or none.
 struct Found {
     page: Page,
+    // Of the physical page, and its place in the pool.
+    index: u32,
     place_px: vec2f,
     exists: bool,
     // Whether this frame has drawn it.
@@ -45,8 +47,9 @@ fn find_page(index: u32, shadow: ShadowLight, receiver: Receiver, finest: u32) -
         }
         let entry = page_table.entries[entry_of(projection, level, place)];
         if entry >> 16u == page_table.stamp && (entry & PAGE_PLACE) != 0u {
-            let texel = place_texel((entry & PAGE_PLACE) - 1u, page_table.pool_columns);
-            found = Found(Page(index, number, place), vec2f(texel), true, (entry & PAGE_DRAWN) != 0u);
+            let physical = (entry & PAGE_PLACE) - 1u;
+            let texel = place_texel(physical, page_table.pool_columns);
+            found = Found(Page(index, number, place), physical, vec2f(texel), true, (entry & PAGE_DRAWN) != 0u);
             break;
         }
     }
@@ -91,7 +94,7 @@ fn view_of(found: Found) -> ShadowView {
 fn look_up_page(shadow: ShadowLight, receiver: Receiver, found: Found) -> Lookup {
     var lookup: Lookup;
     if found.exists {
-        read_page(found.place_px);
+        read_page(found.index, found.place_px);
         let shadow_view = view_of(found);
         lookup = look_up(shadow_view, shadow, receiver, incidence_in(shadow_view, shadow, receiver));
     }

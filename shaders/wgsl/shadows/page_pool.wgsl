@@ -2,17 +2,24 @@
 // coordinates are those of the page with its border, so that results do not depend on its place in the pool.
 #define_import_path shadowgraph::shadows::maps
 #import shadowgraph::shadows::pages::PAGE_PX
+#import shadowgraph::tint_density::density_transmittance
 
 // Depth, 1 nearest to the light. Width and height are powers of two: texture coordinates of texels are exact.
 @group(1) @binding(4) var page_pool: texture_depth_2d;
+// Of all texels of a page, one page after the other: the depth of the translucent caster nearest to the light, and the density of those that
+// opaque ones do not hide.
+@group(1) @binding(6) var<storage, read> page_tint_depths: array<f32>;
+@group(1) @binding(7) var<storage, read> page_tint_densities: array<u32>;
 
 // Steps of a texel to which positions are rounded: with up to 13 bits of whole texels they fit an f32.
 const STEPS: f32 = 1024.0;
 
-// The place of the page that is read in the pool.
+// The page that is read, and its place in the pool.
+var<private> page_index: u32;
 var<private> page_place_px: vec2f;
 
-fn read_page(place_px: vec2f) {
+fn read_page(index: u32, place_px: vec2f) {
+    page_index = index;
     page_place_px = place_px;
 }
 
@@ -28,6 +35,18 @@ fn compared_in(map: u32, comparison: sampler_comparison, uv: vec2f, depth: f32) 
 
 fn stored_depth(map: u32, texel: vec2i) -> f32 {
     return textureLoad(page_pool, texel + vec2i(page_place_px), 0);
+}
+
+fn tint_texel(texel: vec2i) -> u32 {
+    return (page_index * PAGE_PX + u32(texel.y)) * PAGE_PX + u32(texel.x);
+}
+
+fn stored_tint(map: u32, texel: vec2i) -> vec3f {
+    return density_transmittance(page_tint_densities[tint_texel(texel)]);
+}
+
+fn stored_tint_depth(map: u32, texel: vec2i) -> f32 {
+    return page_tint_depths[tint_texel(texel)];
 }
 
 // The gradient of the stored depth at a point, per texel, for gradient biases.

@@ -48,7 +48,8 @@ struct Projection {
     light_radius: f32,
     max_radius_m: f32,
     soft_level: u32,
-    padding: u32,
+    // The bias away from the light with which casters are drawn, relative to the slope of their depth.
+    caster_slope_bias: f32,
 }
 
 // A level of a map. Page 0 of a directional light contains the frame's origin; that of others is at the top left. 48 bytes.

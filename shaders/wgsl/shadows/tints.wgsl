@@ -6,15 +6,10 @@
 #import shadowgraph::shadows::maps::{map_size, stored_depth, stored_tint, stored_tint_depth}
 #import shadowgraph::shadows::tent::{tent_depth, tent_integral}
 #import shadowgraph::shadows::types::ShadowLight
-#import shadowgraph::shadows::variant::TINTED
-#import shadowgraph::shadows::views::light_view
 
 // The transmittance, 0 to 1 each: the mean over the texels around the point that are not blocked. Blocked texels are left to the
 // filter.
 fn tint(light: ShadowLight, receiver: Receiver, lookup: Lookup) -> vec3f {
-    if !TINTED || light_view(light, lookup.view).is_tinted == 0u {
-        return vec3f(1.0);
-    }
     // As wide as the filter of `pcf`.
     let taps = i32(light.filter_taps);
     let half = max(light.filter_half - light.filter_falloff * receiver.view_depth, 0.5);

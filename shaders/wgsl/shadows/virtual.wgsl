@@ -13,23 +13,27 @@
 #import shadowgraph::shadows::pages::{
     BLEND_PART, COARSENING_STEPS, Projection, Softness, direction_to_light, narrowing, project, wanted_level,
 }
+#import shadowgraph::shadows::tints::tint
 #import shadowgraph::shadows::types::ShadowLight
-#import shadowgraph::shadows::variant::DIRECTIONAL
+#import shadowgraph::shadows::variant::{DIRECTIONAL, TINTED}
 #import shadowgraph::view::{direction_to_camera, pixels_per_metre, view}
 
 // Lit where there is no page.
-fn page_visibility(shadow: ShadowLight, receiver: Receiver, soft: Softness, found: Found) -> f32 {
+fn page_visibility(shadow: ShadowLight, receiver: Receiver, soft: Softness, found: Found) -> vec3f {
     let lookup = look_up_page(shadow, receiver, found);
     if !lookup.covered {
-        return 1.0;
+        return vec3f(1.0);
     }
     var light = shadow;
     light.filter_half = half_width(shadow, soft, found.page.level);
     let visibility = filtered(light, receiver, lookup);
     if visibility > 0.0 && is_behind_crease(light, lookup, light.filter_half) {
-        return 0.0;
+        return vec3f(0.0);
     }
-    return visibility;
+    if TINTED {
+        return visibility * tint(light, receiver, lookup);
+    }
+    return vec3f(visibility);
 }
 
 // The level that a point is read from; the fraction says how near it is to the next one.
@@ -72,7 +76,7 @@ fn shadow_visibility(light: u32, receiver: Receiver) -> vec3f {
     // Near the end of its range, a level is blended with the next.
     let blends = found.exists && found.page.level == finest;
     var weight = 1.0 - select(0.0, saturate((fract(wanted) - (1.0 - BLEND_PART)) / BLEND_PART), blends);
-    var visibility = 0.0;
+    var visibility = vec3f(0.0);
     var is_last = weight == 1.0;
     loop {
         visibility += weight * page_visibility(shadow, receiver, soft, found);
@@ -83,7 +87,7 @@ fn shadow_visibility(light: u32, receiver: Receiver) -> vec3f {
         weight = 1.0 - weight;
         is_last = true;
     }
-    return vec3f(mix(1.0, visibility, strength));
+    return mix(vec3f(1.0), visibility, strength);
 }
 
 // The colour of the level that is read, in a checkerboard of its pages; darker where the page is kept from an earlier frame. White without

@@ -16,15 +16,17 @@ pub const LAYER_DRAW_BYTES: u64 = 256;
 /// The format of the colour target of [`LayerPipelines`], which nothing is written to.
 pub const LAYER_TARGET: wgpu::TextureFormat = wgpu::TextureFormat::R8Unorm;
 
-/// A pipeline for each [`CasterMode`] that writes depth into layers of a buffer, without culling: a single-sided wall casts a shadow to both
-/// sides. The viewport must be as large as a layer.
+/// A pipeline for each [`CasterMode`] that writes depth, or tints, into layers of a buffer, without culling: a single-sided wall casts a shadow
+/// to both sides. The viewport must be as large as a layer.
 ///
-/// Group 0 is [`view_layout`](Self::view_layout), group 1 is unused.
+/// Group 0 is [`view_layout`](Self::view_layout) or [`tint_layout`](Self::tint_layout), group 1 is unused.
 pub struct LayerPipelines {
     view_layout: wgpu::BindGroupLayout,
     solid: wgpu::RenderPipeline,
     clip: wgpu::RenderPipeline,
     dither: wgpu::RenderPipeline,
+    tint_layout: wgpu::BindGroupLayout,
+    tint: wgpu::RenderPipeline,
 }
 
 impl LayerPipelines {
@@ -41,35 +43,38 @@ impl LayerPipelines {
             label: Some(name),
             source: wgpu::ShaderSource::Naga(Cow::Owned(module)),
         });
-        let view_layout = view_layout(device);
-        let pipeline = |vertex, fragment, material| {
-            create(
-                device,
-                &shader,
-                (vertex, fragment),
-                &[Some(&view_layout), None, material, Some(&layouts.draw)],
-            )
+        let (view_layout, tint_layout) = (layer_layout(device, false), layer_layout(device, true));
+        let pipeline = |vertex, fragment, view, material| {
+            create(device, &shader, (vertex, fragment), &[Some(view), None, material, Some(&layouts.draw)])
         };
         let material = Some(&layouts.material);
         Ok(Self {
-            solid: pipeline("vs_layer", "fs_layer", None),
-            clip: pipeline("vs_layer_alpha", "fs_layer_clip", material),
-            dither: pipeline("vs_layer_alpha", "fs_layer_dither", material),
+            solid: pipeline("vs_layer", "fs_layer", &view_layout, None),
+            clip: pipeline("vs_layer_alpha", "fs_layer_clip", &view_layout, material),
+            dither: pipeline("vs_layer_alpha", "fs_layer_dither", &view_layout, material),
+            tint: pipeline("vs_layer_tint", "fs_layer_tint", &tint_layout, material),
             view_layout,
+            tint_layout,
         })
     }
 
-    /// Returns the pipeline for casters of a mode; `None` for those that cast no shadow. [`CasterMode::Tint`] is clipped at an alpha of one
-    /// half.
+    /// Returns the pipeline for casters of a mode; `None` for those that cast no shadow or tint.
     #[must_use]
     pub fn get(&self, mode: CasterMode) -> Option<DrawPipeline<'_>> {
         let (pipeline, material) = match mode {
             CasterMode::On => (&self.solid, MaterialUse::None),
-            CasterMode::Clip | CasterMode::Tint => (&self.clip, MaterialUse::Alpha),
+            CasterMode::Clip => (&self.clip, MaterialUse::Alpha),
             CasterMode::Dither => (&self.dither, MaterialUse::Alpha),
-            CasterMode::Off => return None,
+            CasterMode::Tint | CasterMode::Off => return None,
         };
         Some(DrawPipeline { pipeline, material })
+    }
+
+    /// Returns the pipeline for the tints of casters of a mode; `None` for those that do not tint.
+    #[must_use]
+    pub fn get_tint(&self, mode: CasterMode) -> Option<DrawPipeline<'_>> {
+        (mode == CasterMode::Tint)
+            .then_some(DrawPipeline { pipeline: &self.tint, material: MaterialUse::All })
     }
 
     /// Returns the layout of group 0, all storage buffers: the views, the depths, and the draws with a dynamic offset.
@@ -77,12 +82,18 @@ impl LayerPipelines {
     pub fn view_layout(&self) -> &wgpu::BindGroupLayout {
         &self.view_layout
     }
+
+    /// Returns the layout of group 0 for tints: as [`view_layout`](Self::view_layout), then the depths and the densities of tints.
+    #[must_use]
+    pub fn tint_layout(&self) -> &wgpu::BindGroupLayout {
+        &self.tint_layout
+    }
 }
 
 /// The draws of layers.
 #[derive(Clone, Copy, Debug)]
 pub struct LayerDraws<'v> {
-    /// Group 0: see [`LayerPipelines::view_layout`].
+    /// Group 0: see [`LayerPipelines`].
     pub views: &'v wgpu::BindGroup,
     /// Group 3: the transforms, and pairs of an instance and a view.
     pub pairs: &'v wgpu::BindGroup,
@@ -172,7 +183,7 @@ fn create(
     })
 }
 
-fn view_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
+fn layer_layout(device: &wgpu::Device, has_tints: bool) -> wgpu::BindGroupLayout {
     let entry = |binding, visibility, read_only, has_dynamic_offset| wgpu::BindGroupLayoutEntry {
         binding,
         visibility,
@@ -183,12 +194,15 @@ fn view_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
         },
         count: None,
     };
-    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some("depth layers"),
-        entries: &[
-            entry(0, wgpu::ShaderStages::VERTEX_FRAGMENT, true, false),
-            entry(1, wgpu::ShaderStages::FRAGMENT, false, false),
-            entry(2, wgpu::ShaderStages::VERTEX, true, true),
-        ],
-    })
+    let (vertex, fragment) = (wgpu::ShaderStages::VERTEX, wgpu::ShaderStages::FRAGMENT);
+    let mut entries = vec![
+        entry(0, wgpu::ShaderStages::VERTEX_FRAGMENT, true, false),
+        entry(1, fragment, false, false),
+        entry(2, vertex, true, true),
+    ];
+    if has_tints {
+        entries.extend([3, 4].map(|binding| entry(binding, fragment, false, false)));
+    }
+    let label = Some("depth layers");
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label, entries: &entries })
 }

@@ -235,6 +235,12 @@ impl GpuScene {
         numbers.extend(self.tinting.iter().copied().filter(intersects));
     }
 
+    /// Returns whether any caster tints.
+    #[must_use]
+    pub fn any_tints(&self) -> bool {
+        !self.tinting.is_empty()
+    }
+
     /// Appends the numbers of [moving](Self::is_moving) instances that cast shadows and intersect a volume, ascending.
     pub fn cull_moving_casters(&self, volume: &CullVolume, numbers: &mut Vec<u32>) {
         let first = numbers.len();

@@ -14,6 +14,7 @@ mod projections;
 mod settings;
 mod slots;
 mod store;
+mod tints;
 mod variant;
 
 pub use settings::VirtualSettings;
@@ -30,7 +31,8 @@ use crate::technique::binding::{COMPARISON_SAMPLER, DEPTH_MAP, STORAGE};
 use crate::technique::{ShadowBinding, ShadowOutputs, ShadowTechnique, SurfaceBuffers};
 use passes::{FrameBuffers, Passes};
 use plan::VirtualPlan;
-use store::{PoolSize, Stores};
+use store::{PageNeeds, PoolSize, Stores};
+use tints::Tints;
 use variant::Variant;
 
 /// Virtual shadow maps. The filter is that of [`Pcf`](crate::Pcf).
@@ -69,21 +71,24 @@ impl VirtualMaps {
     fn all_lit<'f>(&'f self, frame: &mut Frame<'f>, plan: &VirtualPlan) -> ShadowOutputs<'f> {
         let pool = frame.import_texture("pool", &self.no_pool, true);
         let nothing = || ShadowBinding::ExternalBuffer(&self.nothing);
-        self.outputs([nothing(), nothing(), nothing(), nothing()], pool.clone(), pool, plan)
+        let variant = Variant::for_frame(&plan.lights, &plan.projections, false);
+        let buffers = [nothing(), nothing(), nothing(), nothing()];
+        self.outputs(variant, (buffers, [nothing(), nothing()]), [pool.clone(), pool], plan)
     }
 
     fn outputs<'f>(
         &'f self,
-        buffers: [ShadowBinding<'f>; 4],
-        pool: Texture,
-        pool_view: Texture,
+        variant: Variant,
+        (buffers, tints): ([ShadowBinding<'f>; 4], [ShadowBinding<'f>; 2]),
+        [pool, pool_view]: [Texture; 2],
         plan: &VirtualPlan,
     ) -> ShadowOutputs<'f> {
         let mut bindings = Vec::from(buffers);
         bindings.push(ShadowBinding::Texture(pool));
         bindings.push(ShadowBinding::Sampler(&self.sampler));
+        bindings.extend(tints);
         ShadowOutputs {
-            variant: Variant::for_frame(&plan.lights, &plan.projections).index(),
+            variant: variant.index(),
             bindings,
             debug_light: plan.main_light,
             debug: vec![("pool", pool_view)],
@@ -110,7 +115,7 @@ impl ShadowTechnique for VirtualMaps {
     }
 
     fn variant_count(&self) -> u32 {
-        Variant::ALL.len() as u32
+        Variant::COUNT
     }
 
     fn modules(&self, variant: u32) -> Vec<ModuleSource> {
@@ -128,7 +133,7 @@ impl ShadowTechnique for VirtualMaps {
     }
 
     fn binding_types(&self) -> Vec<wgpu::BindingType> {
-        vec![STORAGE, STORAGE, STORAGE, STORAGE, DEPTH_MAP, COMPARISON_SAMPLER]
+        vec![STORAGE, STORAGE, STORAGE, STORAGE, DEPTH_MAP, COMPARISON_SAMPLER, STORAGE, STORAGE]
     }
 
     fn add_to<'f>(
@@ -155,16 +160,23 @@ impl ShadowTechnique for VirtualMaps {
         }
         let casters = inputs.casters.layered();
         let casters = casters.ok_or_else(|| Error::MissingLayers { technique: self.name().into() })?;
-        let store = self.stores.fitting(&self.device, inputs.view, size, plan.slots.entry_count());
+        let tinted = casters.any_tints();
+        let needs = PageNeeds { size, entry_count: plan.slots.entry_count(), tinted };
+        let store = self.stores.fitting(&self.device, inputs.view, needs);
         let known = store.known().clone();
         let (next, boxes) = known.next((inputs.casters, casters), inputs.origin_world, plan.slots.clone());
         frame.node("shadows", |frame| {
             let inputs = (inputs, buffers, &settings);
             let store = (&store, next, &boxes);
-            let FrameBuffers { projections, levels, lights, table, pool, pool_view } =
+            let FrameBuffers { projections, levels, lights, table, pool, tints, pool_view } =
                 self.passes.add_to(frame, inputs, (&plan, casters), store);
+            let variant = Variant::for_frame(&plan.lights, &plan.projections, tinted);
             let buffers = [projections, levels, lights, table].map(ShadowBinding::Buffer);
-            Ok(self.outputs(buffers, pool, pool_view, &plan))
+            let tints = match tints {
+                Some(Tints { depths, densities }) => [depths, densities].map(ShadowBinding::Buffer),
+                None => [&self.nothing; 2].map(ShadowBinding::ExternalBuffer),
+            };
+            Ok(self.outputs(variant, (buffers, tints), [pool, pool_view], &plan))
         })
     }
 }

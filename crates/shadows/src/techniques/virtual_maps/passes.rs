@@ -8,8 +8,9 @@ use super::pool_view::PoolView;
 use super::projections::PAGE_PX;
 use super::settings::VirtualSettings;
 use super::store::{Boxes, MAX_BOXES, PageStore, StoreState};
+use super::tints::{TintPasses, Tints};
 use crate::error::Error;
-use crate::layered_casters::{LayerTokens, LayeredCasters};
+use crate::layered_casters::{LayerTokens, LayeredCasters, LayeredInstances};
 use crate::plan::ShadowInputs;
 use crate::technique::binding::{DEPTH_MAP, FLOAT_MAP, STORAGE, UNIFORM};
 use crate::technique::{ShadowCounts, SurfaceBuffers, layout};
@@ -67,6 +68,7 @@ pub(super) struct Passes {
     finish: wgpu::ComputePipeline,
     combine: wgpu::ComputePipeline,
     store: wgpu::RenderPipeline,
+    tints: TintPasses,
     pool_view: PoolView,
 }
 
@@ -77,6 +79,8 @@ pub(super) struct FrameBuffers {
     pub(super) lights: Buffer,
     pub(super) table: Buffer,
     pub(super) pool: Texture,
+    /// If the pool has them.
+    pub(super) tints: Option<Tints>,
     /// The pool as an image.
     pub(super) pool_view: Texture,
 }
@@ -104,6 +108,7 @@ impl Passes {
             finish: update("cs_finish"),
             combine: pipeline(device, &combining, "cs_combine", &[&combine_layout]),
             store,
+            tints: TintPasses::new(device)?,
             pool_view: PoolView::new(device)?,
             view_layout,
             state_layout,
@@ -160,6 +165,10 @@ impl Passes {
         let size = frame.uniform(bytemuck::cast_slice(&[width, height, store.size.columns, 0]));
         let mut pool = frame.import_texture("page pool", &store.pool, true);
         self.combine(frame, &steps, (&pool, size), &mut depths);
+        let mut tints = store.tints.as_ref().map(|store| store.import(frame));
+        if let Some(tints) = &mut tints {
+            self.tints.add_to(frame, (casters, &drawn), (&steps.views, &mut depths), tints);
+        }
         self.store(frame, &steps, (&mut pool, size), &mut depths);
         let Steps { projections, levels, lights, table, pages, counters, .. } = steps;
         let pool_view =
@@ -167,7 +176,7 @@ impl Passes {
         let level_bias = settings.level_bias;
         let warning = Arc::new(move |counts: &[u32]| warning(counts, level_bias));
         frame.publish(ShadowCounts { names: &COUNTS, buffer: counters, bytes: COUNT_BYTES, warning });
-        FrameBuffers { projections, levels, lights, table, pool, pool_view }
+        FrameBuffers { projections, levels, lights, table, pool, tints, pool_view }
     }
 
     /// Adds a pass with some steps of `pages_update.wgsl`. `recorded` is called when it is recorded.
@@ -269,7 +278,7 @@ impl Passes {
 fn draw<'f>(
     frame: &mut Frame<'f>,
     casters: &'f dyn LayeredCasters,
-    drawn: &crate::layered_casters::LayeredInstances,
+    drawn: &LayeredInstances,
     views: &Buffer,
     depths: &mut Buffer,
 ) {
@@ -277,13 +286,7 @@ fn draw<'f>(
     let vertices = VertexBuffers::published_in(frame);
     let mut pass = frame.render_pass("draw");
     vertices.read_in(&mut pass);
-    let tokens = LayerTokens {
-        views: pass.storage_buffer(views),
-        depths: pass.storage_buffer_mut(depths, Contents::Preserve),
-        draws: pass.storage_buffer(&drawn.draws),
-        pairs: pass.storage_buffer(&drawn.pairs),
-    };
-    pass.indirect_buffer(&drawn.draws);
+    let tokens = LayerTokens::in_pass(&mut pass, drawn, views, depths);
     pass.color(&mut target, Contents::clear_color([0.0; 4]));
     pass.body(move |ctx| casters.draw_layers(ctx, tokens).map(|_| ()));
 }

@@ -165,13 +165,18 @@ impl ViewBounds {
 
 /// Returns the projections of a light.
 fn projections(inputs: &ShadowInputs<'_>, candidate: &Candidate<'_>) -> Vec<Projection> {
-    let params = LightShadowParams::new(inputs.settings, candidate.own, false);
+    let is_directional = matches!(candidate.shape, Shape::Directional { .. });
+    let params = LightShadowParams::new(inputs.settings, candidate.own, is_directional);
+    let slope_bias_milli = params.slope_bias_milli(1.0);
     let near_m = params.near_m.unwrap_or(f64::from(inputs.settings.atlas.spot_near_m));
     let local = |cone, rotation| {
-        Projection::Local(SpotFit::new(cone, rotation, near_m, LOCAL_TEXELS, LOCAL_MARGIN_TEXELS))
+        let fit = SpotFit::new(cone, rotation, near_m, LOCAL_TEXELS, LOCAL_MARGIN_TEXELS);
+        Projection::Local { fit, slope_bias_milli }
     };
     match candidate.shape {
-        Shape::Directional { light_from_world } => vec![Projection::Directional { light_from_world }],
+        Shape::Directional { light_from_world } => {
+            vec![Projection::Directional { light_from_world, slope_bias_milli }]
+        }
         Shape::Spot { cone, light_from_world } => vec![local(cone, light_from_world)],
         Shape::Point { position_world, range_m } => {
             let face = |face| point_face(position_world, range_m, face);
@@ -198,7 +203,7 @@ fn coarse_pages(
     let mut pages = Vec::new();
     for (face, projection) in (0..).zip(projections) {
         match projection {
-            Projection::Directional { light_from_world } => {
+            Projection::Directional { light_from_world, .. } => {
                 let [first_m, last_m] = view.on_map(light_from_world);
                 let span = |level| {
                     let level = DirectionalLevel::new(light_from_world, viewpoint, level);
@@ -218,7 +223,7 @@ fn coarse_pages(
                     }),
                 );
             }
-            Projection::Local(fit) => {
+            Projection::Local { fit, .. } => {
                 if fit.cull_volume().intersects(&view.bounds) {
                     pages.push(Coarse { face, level: LOCAL_LEVELS - 1, page: [0, 0] });
                 }
@@ -271,7 +276,7 @@ fn gpu_projections(slots: &Slots, viewpoint: &Viewpoint) -> (Vec<GpuProjection>,
         let Some(placed) = placed else { return bytemuck::Zeroable::zeroed() };
         let projection = placed.projection;
         let mut gpu = projection.gpu(viewpoint);
-        if let Projection::Directional { light_from_world } = &projection {
+        if let Projection::Directional { light_from_world, .. } = &projection {
             gpu.first_level = levels.len() as u32;
             let all = 0..projection.level_count();
             levels.extend(all.map(|level| {

@@ -38,9 +38,16 @@ pub(super) enum Projection {
     Directional {
         /// The rotation from world to light space, +Z towards the light.
         light_from_world: DMat3,
+        /// See [`CasterTarget`](crate::CasterTarget).
+        slope_bias_milli: u32,
     },
     /// That of a spot light, or of a face of a point light.
-    Local(SpotFit),
+    Local {
+        /// The map.
+        fit: SpotFit,
+        /// See [`CasterTarget`](crate::CasterTarget).
+        slope_bias_milli: u32,
+    },
 }
 
 /// `Projection` of `shadows/pages.wgsl`.
@@ -66,7 +73,7 @@ pub(super) struct GpuProjection {
     pub(super) light_radius: f32,
     pub(super) max_radius_m: f32,
     pub(super) soft_level: u32,
-    pub(super) padding: u32,
+    pub(super) caster_slope_bias: f32,
 }
 
 /// `Level` of `shadows/pages.wgsl`.
@@ -118,16 +125,19 @@ impl Projection {
     pub(super) fn level_count(&self) -> u32 {
         match self {
             Self::Directional { .. } => DIRECTIONAL_LEVELS,
-            Self::Local(_) => LOCAL_LEVELS,
+            Self::Local { .. } => LOCAL_LEVELS,
         }
     }
 
     /// Returns what shaders read; entries, levels, the version and penumbrae are left to the caller.
     pub(super) fn gpu(&self, viewpoint: &Viewpoint) -> GpuProjection {
-        match self {
-            Self::Directional { light_from_world } => directional(light_from_world, viewpoint),
-            Self::Local(fit) => local(fit, viewpoint),
-        }
+        let (gpu, slope_bias_milli) = match self {
+            Self::Directional { light_from_world, slope_bias_milli } => {
+                (directional(light_from_world, viewpoint), slope_bias_milli)
+            }
+            Self::Local { fit, slope_bias_milli } => (local(fit, viewpoint), slope_bias_milli),
+        };
+        GpuProjection { caster_slope_bias: 0.001 * *slope_bias_milli as f32, ..gpu }
     }
 }
 
@@ -261,7 +271,7 @@ mod tests {
         let module = shadowgraph_shaders::compose("pages_mark.wgsl", &[]).unwrap();
         shadowgraph_shaders::check_layout!(&module, "Projection", GpuProjection:
             x, y, z, w, center, range_m, right, texel_m, down, depth_per_texel, to_light, is_perspective, first_level, level_count,
-            first_entry, version, light_radius, max_radius_m, soft_level, padding,
+            first_entry, version, light_radius, max_radius_m, soft_level, caster_slope_bias,
         )
         .unwrap();
         shadowgraph_shaders::check_layout!(&module, "Level", GpuLevel:

@@ -113,7 +113,7 @@ impl Slots {
 fn entries(projection: &Projection) -> u32 {
     match projection {
         Projection::Directional { .. } => DIRECTIONAL_ENTRIES,
-        Projection::Local(_) => LOCAL_ENTRIES,
+        Projection::Local { .. } => LOCAL_ENTRIES,
     }
 }
 
@@ -126,14 +126,15 @@ mod tests {
 
     fn sun(angle: f64) -> Group {
         let light_from_world = DMat3::from_rotation_x(angle);
-        Group { projections: vec![Projection::Directional { light_from_world }], keeps: true }
+        let projection = Projection::Directional { light_from_world, slope_bias_milli: 0 };
+        Group { projections: vec![projection], keeps: true }
     }
 
     fn local(x: f64, faces: usize) -> Group {
         let position_world = DVec3::X * x;
         let cone = SpotCone { position_world, direction: DVec3::NEG_Z, half_angle: 0.5, range_m: 9.0 };
         let fit = SpotFit::new(cone, DMat3::IDENTITY, 0.1, 1024, 4.0);
-        Group { projections: vec![Projection::Local(fit); faces], keeps: true }
+        Group { projections: vec![Projection::Local { fit, slope_bias_milli: 0 }; faces], keeps: true }
     }
 
     fn versions(slots: &Slots, first: u32) -> u32 {

@@ -4,10 +4,12 @@ use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use glam::DVec3;
+use shadowgraph_core::Frame;
 use shadowgraph_scene::Aabb;
 
 use super::projections::PAGE_PX;
 use super::slots::Slots;
+use super::tints::Tints;
 use crate::casters::ShadowCasters;
 use crate::layered_casters::LayeredCasters;
 
@@ -59,6 +61,31 @@ impl PoolSize {
     }
 }
 
+/// What a frame needs of a store.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct PageNeeds {
+    pub(super) size: PoolSize,
+    /// Entries of the page table.
+    pub(super) entry_count: u32,
+    /// Whether casters tint.
+    pub(super) tinted: bool,
+}
+
+/// The tints of the physical pages of a pool.
+pub(super) struct TintStore {
+    depths: wgpu::Buffer,
+    densities: wgpu::Buffer,
+}
+
+impl TintStore {
+    pub(super) fn import(&self, frame: &mut Frame<'_>) -> Tints {
+        Tints {
+            depths: frame.import_buffer("page tint depths", &self.depths, true),
+            densities: frame.import_buffer("page tint densities", &self.densities, true),
+        }
+    }
+}
+
 /// The buffers of a view, and what has been drawn into them.
 pub(super) struct PageStore {
     pub(super) size: PoolSize,
@@ -71,6 +98,8 @@ pub(super) struct PageStore {
     pub(super) pages: wgpu::Buffer,
     /// Depths of the pages that a frame draws; 0 between frames.
     pub(super) depths: wgpu::Buffer,
+    /// If a frame has had casters that tint.
+    pub(super) tints: Option<TintStore>,
     entry_count: u32,
     known: Mutex<StoreState>,
 }
@@ -88,7 +117,8 @@ pub(super) struct StoreState {
 }
 
 impl PageStore {
-    pub(super) fn new(device: &wgpu::Device, size: PoolSize, entry_count: u32) -> Self {
+    pub(super) fn new(device: &wgpu::Device, needs: PageNeeds) -> Self {
+        let PageNeeds { size, entry_count, tinted } = needs;
         let [width, height] = size.size_px;
         let pool = device.create_texture(&wgpu::TextureDescriptor {
             label: Some("page pool"),
@@ -117,14 +147,19 @@ impl PageStore {
             marks: buffer("page marks", MARK_BYTES * entries),
             pages: buffer("physical pages", PHYSICAL_PAGE_BYTES * pages),
             depths: buffer("page depths", PAGE_BYTES * pages),
+            tints: tinted.then(|| TintStore {
+                depths: buffer("page tint depths", PAGE_BYTES * pages),
+                densities: buffer("page tint densities", PAGE_BYTES * pages),
+            }),
             entry_count,
             known: Mutex::default(),
         }
     }
 
-    /// Returns whether it has this pool and as many entries.
-    pub(super) fn fits(&self, size: PoolSize, entry_count: u32) -> bool {
-        self.size == size && self.entry_count >= entry_count
+    /// Returns whether it has this pool, as many entries, and tints if they are needed.
+    pub(super) fn fits(&self, needs: PageNeeds) -> bool {
+        let has_tints = self.tints.is_some() || !needs.tinted;
+        self.size == needs.size && self.entry_count >= needs.entry_count && has_tints
     }
 
     pub(super) fn known(&self) -> MutexGuard<'_, StoreState> {
@@ -226,18 +261,12 @@ impl Stores {
     }
 
     /// Returns the store of a view, a new one if that of its previous frame does not fit.
-    pub(super) fn fitting(
-        &self,
-        device: &wgpu::Device,
-        view: u32,
-        size: PoolSize,
-        entry_count: u32,
-    ) -> Arc<PageStore> {
+    pub(super) fn fitting(&self, device: &wgpu::Device, view: u32, needs: PageNeeds) -> Arc<PageStore> {
         let mut stores = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(store) = stores.get(&view).filter(|store| store.fits(size, entry_count)) {
+        if let Some(store) = stores.get(&view).filter(|store| store.fits(needs)) {
             return store.clone();
         }
-        let store = Arc::new(PageStore::new(device, size, entry_count));
+        let store = Arc::new(PageStore::new(device, needs));
         stores.insert(view, store.clone());
         store
     }

@@ -6,7 +6,7 @@ use super::plan::PENUMBRA_TAPS;
 use super::projections::GpuProjection;
 use crate::views::{BIAS_PLANE, ShadowLight};
 
-/// What the lookups of a frame's shadowed lights have in common. The default, nothing, works for every frame.
+/// What the lookups of a frame's shadowed lights have in common, and what they need.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Variant {
     /// All are directional.
@@ -15,6 +15,8 @@ pub(super) struct Variant {
     usual: bool,
     /// They have penumbrae.
     soft: bool,
+    /// Translucent casters tint light.
+    tinted: bool,
 }
 
 /// Returns the taps of the default filter.
@@ -23,20 +25,11 @@ fn usual_taps(soft: bool) -> u32 {
 }
 
 impl Variant {
-    /// All variants, by index.
-    pub(super) const ALL: [Self; 8] = [
-        Self { directional: false, usual: false, soft: false },
-        Self { directional: false, usual: true, soft: false },
-        Self { directional: true, usual: false, soft: false },
-        Self { directional: true, usual: true, soft: false },
-        Self { directional: false, usual: false, soft: true },
-        Self { directional: false, usual: true, soft: true },
-        Self { directional: true, usual: false, soft: true },
-        Self { directional: true, usual: true, soft: true },
-    ];
+    /// The number of variants.
+    pub(super) const COUNT: u32 = 16;
 
     /// Returns the best variant for the lights of a frame.
-    pub(super) fn for_frame(lights: &[ShadowLight], projections: &[GpuProjection]) -> Self {
+    pub(super) fn for_frame(lights: &[ShadowLight], projections: &[GpuProjection], tinted: bool) -> Self {
         let mut shadowed = lights.iter().filter(|light| light.view_count > 0);
         let soft = projections.iter().any(|projection| projection.max_radius_m > 0.0);
         let is_usual = |light: &ShadowLight| {
@@ -49,11 +42,13 @@ impl Variant {
             directional: projections.iter().all(|projection| projection.is_perspective == 0),
             usual: shadowed.all(is_usual),
             soft,
+            tinted,
         }
     }
 
     pub(super) fn index(self) -> u32 {
-        4 * u32::from(self.soft) + 2 * u32::from(self.directional) + u32::from(self.usual)
+        let Self { directional, usual, soft, tinted } = self;
+        [usual, directional, soft, tinted].iter().rev().fold(0, |index, &bit| 2 * index + u32::from(bit))
     }
 
     /// Returns whether the lights of the variant with an index have penumbrae.
@@ -62,18 +57,20 @@ impl Variant {
     }
 
     fn get(index: u32) -> Self {
-        Self::ALL.get(index as usize).copied().unwrap_or_default()
+        let bit = |number: u32| index >> number & 1 == 1;
+        Self { usual: bit(0), directional: bit(1), soft: bit(2), tinted: bit(3) }
     }
 
     /// Returns the replacement of `shadows/variant.wgsl` for the variant with an index.
     pub(super) fn module(index: u32) -> ModuleSource {
-        let Self { directional, usual, soft } = Self::get(index);
+        let Self { directional, usual, soft, tinted } = Self::get(index);
         let taps = if usual { usual_taps(soft) } else { 0 };
         let text = format!(
             "#define_import_path shadowgraph::shadows::variant\n\
              const FILTER_TAPS: u32 = {taps}u;\n\
              const DIRECTIONAL: bool = {directional};\n\
-             const SIMPLE: bool = {usual};\n",
+             const SIMPLE: bool = {usual};\n\
+             const TINTED: bool = {tinted};\n",
         );
         ModuleSource::new(format!("shadows/variant.wgsl of virtual {index}"), text)
     }
@@ -86,8 +83,8 @@ mod tests {
 
     #[test]
     fn every_index_is_that_of_its_variant() {
-        for (index, variant) in (0..).zip(Variant::ALL) {
-            assert_eq!(variant.index(), index);
+        for index in 0..Variant::COUNT {
+            assert_eq!(Variant::get(index).index(), index);
         }
     }
 
@@ -98,7 +95,7 @@ mod tests {
         let (directional, local) =
             (GpuProjection::zeroed(), GpuProjection { is_perspective: 1, ..GpuProjection::zeroed() });
         let of = |lights: &[ShadowLight], projections: &[GpuProjection]| {
-            Variant::for_frame(lights, projections).index()
+            Variant::for_frame(lights, projections, false).index()
         };
         assert_eq!(of(&[sun, ShadowLight::default()], &[directional]), 3);
         assert_eq!(of(&[sun, soft], &[directional]), 2);
@@ -106,5 +103,6 @@ mod tests {
         assert_eq!(of(&[soft], &[local]), 0);
         let wide = GpuProjection { max_radius_m: 1.0, ..directional };
         assert_eq!(of(&[soft], &[wide]), 7);
+        assert_eq!(Variant::for_frame(&[sun], &[directional], true).index(), 11);
     }
 }
