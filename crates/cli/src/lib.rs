@@ -16,6 +16,7 @@ mod frame_files;
 mod measure;
 mod nodes;
 mod noise;
+mod pixel;
 mod progress;
 mod report;
 mod values;
@@ -53,6 +54,7 @@ pub fn run(registry: &Registry) -> ExitCode {
         Ok(Cli { command: Some(Command::Render(args)) }) => commands::render(&args, registry),
         Ok(Cli { command: Some(Command::Dump(args)) }) => dump::dump(&args, registry),
         Ok(Cli { command: Some(Command::Explain(args)) }) => dump::explain(&args, registry),
+        Ok(Cli { command: Some(Command::Pixel(args)) }) => pixel::pixel(&args, registry),
         #[cfg(feature = "view")]
         Ok(Cli { command: Some(Command::View(args)) }) => view::view(&args, registry),
         Ok(Cli { command: Some(Command::Bench(args)) }) => bench::bench(&args, registry),

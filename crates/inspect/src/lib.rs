@@ -1,5 +1,5 @@
 //! Shows and compares compiled frames of [`shadowgraph_core`]: an HTML page ([`HtmlPage`]), the differences between two frames ([`diff`],
-//! [`Dump`]), explanations of passes and resources ([`explain`]) and times in Chrome's trace format ([`trace_json`]).
+//! [`Dump`]), explanations of passes and resources ([`explain`]), the history of a pixel ([`PixelRecorder`]) and times in Chrome's trace format ([`trace_json`]).
 //!
 //! The crate reads plans, captured textures and times. It draws nothing and needs no device.
 //!
@@ -23,6 +23,7 @@ mod diff;
 mod error;
 mod explain;
 mod html;
+mod pixel;
 mod trace;
 
 pub use contents::{ContentsDiff, ContentsDifference, ContentsRecorder, LargestDifference};
@@ -30,6 +31,9 @@ pub use diff::{Diff, Difference, Dump, Subject, diff};
 pub use error::Error;
 pub use explain::{explain, explain_order, explain_pass, explain_resource, explain_why_before};
 pub use html::{Drawing, HtmlPage, Outline, PageTable, to_html};
+pub use pixel::{
+    PixelHistory, PixelPass, PixelPlace, PixelRead, PixelRecorder, PixelTexel, PixelWrite, WriteEffect,
+};
 pub use trace::trace_json;
 
 #[cfg(doctest)]

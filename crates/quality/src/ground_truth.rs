@@ -62,7 +62,7 @@ impl RayLight {
     }
 
     /// Returns the unit direction to the light from a position; `None` if the light does not reach it.
-    fn direction_from(&self, position: Vec3) -> Option<Vec3> {
+    pub(super) fn direction_from(&self, position: Vec3) -> Option<Vec3> {
         let center = match self.shape {
             LightShape::Directional { to_light, .. } => return Some(to_light),
             LightShape::Point { position, .. } => position,
@@ -78,7 +78,7 @@ pub(super) fn mean(visibility: Vec3) -> f32 {
     visibility.element_sum() / 3.0
 }
 
-fn receiver(surfaces: &Surfaces, pixel: usize, eye: Vec3) -> ReceiverPoint {
+pub(super) fn receiver(surfaces: &Surfaces, pixel: usize, eye: Vec3) -> ReceiverPoint {
     let position = surfaces.positions[pixel];
     ReceiverPoint {
         position,

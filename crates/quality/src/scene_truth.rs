@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 use shadowgraph::SceneRays;
 use shadowgraph_scene::{Changes, Scene};
-use shadowgraph_shadows::rays::RayScene;
+use shadowgraph_shadows::rays::{RayInstanceKey, RayScene};
 
 use crate::Error;
 
@@ -28,6 +28,17 @@ impl SceneTruth {
         };
         rays.set_origin(origin_world)?;
         Ok(self.followed.insert((kept, rays)).1.rays())
+    }
+
+    /// Returns the name of the instance of the scene that is an instance of the triangles; without a name, its number among the instances.
+    pub(crate) fn name(&self, key: RayInstanceKey) -> Option<String> {
+        let (scene, rays) = self.followed.as_ref()?;
+        let instance = rays.instance(key)?;
+        let name = scene.instance(instance).map(|instance| instance.name.clone()).unwrap_or_default();
+        if !name.is_empty() {
+            return Some(name);
+        }
+        scene.instances().position(|(other, _)| other == instance).map(|number| format!("instance {number}"))
     }
 
     /// Returns the triangles that were followed last.

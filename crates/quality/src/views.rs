@@ -109,7 +109,7 @@ impl Finder {
     fn cast(&self, from: DVec3, direction: DVec3) -> Option<Hit> {
         let origin: Vec3 = (from - self.origin_world).as_vec3();
         let ray = Ray::new(origin, direction.as_vec3(), 0.0, f32::INFINITY);
-        let NearestHit { distance_m, corners: [a, b, c] } = self.rays.rays().nearest_hit(&ray)?;
+        let NearestHit { distance_m, corners: [a, b, c], .. } = self.rays.rays().nearest_hit(&ray)?;
         let from_behind = (b - a).cross(c - a).dot(direction.as_vec3()) > 0.0;
         Some(Hit { distance_m: f64::from(distance_m), from_behind })
     }

@@ -44,6 +44,14 @@ pub enum Error {
         /// The limit, pixels.
         limit: u32,
     },
+    /// The pixel is not one of the image.
+    #[error("pixel {},{} is outside of the image; expected 0,0 to {},{}", pixel[0], pixel[1], size_px[0] - 1, size_px[1] - 1)]
+    PixelOutside {
+        /// Column and row.
+        pixel: [u32; 2],
+        /// Width and height of the image.
+        size_px: [u32; 2],
+    },
     /// The target of a colour image has no sRGB format.
     #[error("the target's format {format:?} does not encode colours; expected an sRGB format")]
     TargetFormat {

@@ -6,6 +6,7 @@ mod draw;
 mod record;
 
 use aov::lit_output;
+pub(crate) use draw::Drawn;
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 

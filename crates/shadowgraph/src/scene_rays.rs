@@ -74,6 +74,12 @@ impl SceneRays {
         &self.rays
     }
 
+    /// Returns the instance of the scene that is an instance of the trees.
+    #[must_use]
+    pub fn instance(&self, key: RayInstanceKey) -> Option<InstanceKey> {
+        self.instances.iter().find(|(_, placed)| placed.key == key).map(|(instance, _)| *instance)
+    }
+
     /// Moves the point that rays are relative to.
     ///
     /// # Errors

@@ -17,6 +17,7 @@ mod maps;
 mod measure;
 mod noise;
 mod pipelines;
+mod pixel_history;
 mod planted;
 mod post;
 mod raytraced;

@@ -12,7 +12,7 @@ use crate::stage::gpu;
 /// Frames without a defect, if `SHADOWGRAPH_SOAK` is not set.
 const FRAMES: u32 = 40;
 
-fn from_env(name: &str, default: u32) -> u32 {
+pub(crate) fn from_env(name: &str, default: u32) -> u32 {
     std::env::var(name).ok().and_then(|value| value.parse().ok()).unwrap_or(default)
 }
 

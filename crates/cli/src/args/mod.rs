@@ -33,6 +33,8 @@ pub(crate) enum Command {
     Dump(DumpArgs),
     /// Explain the decisions about a pass or a resource of a frame: order, merging, load and store ops, memory
     Explain(ExplainArgs),
+    /// Tell the history of a pixel: the passes and textures that fed it, with their values there
+    Pixel(PixelArgs),
     /// List pipelines, node kinds and techniques, or describe one of them
     Nodes(NodesArgs),
     /// Show a scene in a window, with its settings, its graph and the times of its passes
@@ -172,6 +174,21 @@ pub(crate) struct ExplainArgs {
     pub(crate) frames: FramesArgs,
 }
 
+/// `shadowgraph pixel`
+#[derive(Debug, Args)]
+pub(crate) struct PixelArgs {
+    /// Column and row of the pixel, from the top left: 0,0 is the first
+    #[arg(value_name = "X,Y", value_parser = pixel, allow_hyphen_values = true)]
+    pub(crate) pixel: [u32; 2],
+    #[command(flatten)]
+    pub(crate) draw: DrawArgs,
+    #[command(flatten)]
+    pub(crate) frames: FramesArgs,
+    /// The output file, text or, with the extension json, JSON; missing directories are created. Default: text on standard output
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: Option<PathBuf>,
+}
+
 /// `shadowgraph bench`
 #[derive(Debug, Args)]
 pub(crate) struct BenchArgs {
@@ -294,6 +311,13 @@ pub(crate) enum Format {
     Html,
     /// Trace of pass times for chrome://tracing or ui.perfetto.dev
     Trace,
+}
+
+/// Parses the place of a pixel.
+fn pixel(text: &str) -> Result<[u32; 2], String> {
+    let parsed =
+        text.split_once(',').and_then(|(x, y)| Some([x.trim().parse().ok()?, y.trim().parse().ok()?]));
+    parsed.ok_or_else(|| "expected X,Y, column and row from the top left, such as 640,360".into())
 }
 
 /// Parses frames per second.

@@ -12,7 +12,7 @@ pub use shadowgraph_inspect::*;
 
 use crate::gpu::Gpu;
 use crate::rendered::RenderedFrame;
-use crate::renderer::Renderer;
+use crate::renderer::{Drawn, Renderer};
 use crate::view_options::ViewOptions;
 
 /// A view that was drawn, with what its passes wrote.
@@ -40,7 +40,7 @@ impl Renderer {
         self.draw(gpu, options)?;
         let frame = self.draw_timed(gpu, options, Some(&mut Timer::new()))?;
         let mut capture: Option<PendingCapture> = None;
-        let (_, shadow_buffers) = self.draw_with(gpu, options, |compiled, graph| {
+        let Drawn { shadow_buffers, .. } = self.draw_with(gpu, options, |compiled, graph| {
             gpu.submit(|encoder| {
                 let (executed, taken) = compiled.execute_captured(graph, &gpu.device, encoder)?;
                 capture = Some(taken);
@@ -74,11 +74,35 @@ impl Renderer {
         options: &ViewOptions,
         recorder: &mut ContentsRecorder,
     ) -> Result<RenderedFrame, crate::Error> {
-        let (frame, _) = self.draw_with(gpu, options, |compiled, graph| {
+        let Drawn { frame, .. } = self.draw_with(gpu, options, |compiled, graph| {
             let mut add = |contained| recorder.add(&contained);
             Ok(compiled.execute_visited(graph, &gpu.device, &gpu.queue, &mut add)?)
         })?;
         Ok(frame)
+    }
+
+    /// Draws a view like [`draw`](Self::draw), pass by pass, and returns the history of a pixel of its image: column and row from the top left.
+    ///
+    /// # Errors
+    /// As `draw`, and for a pixel outside of the image.
+    pub fn pixel_history(
+        &mut self,
+        gpu: &Gpu,
+        options: &ViewOptions,
+        pixel: [u32; 2],
+    ) -> Result<(RenderedFrame, PixelHistory), crate::Error> {
+        let size_px = options.size_px;
+        if pixel.iter().zip(&size_px).any(|(at, side)| at >= side) {
+            return Err(crate::Error::PixelOutside { pixel, size_px });
+        }
+        let mut recorder = PixelRecorder::new(PixelPlace { pixel, size_px });
+        let Drawn { frame, image, .. } = self.draw_with(gpu, options, |compiled, graph| {
+            let plan = compiled.shared_plan();
+            let mut add = |contained| recorder.add(&plan, &contained);
+            Ok(compiled.execute_visited(graph, &gpu.device, &gpu.queue, &mut add)?)
+        })?;
+        let history = recorder.history(&frame.plan, image);
+        Ok((frame, history))
     }
 }
 

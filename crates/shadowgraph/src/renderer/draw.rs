@@ -1,6 +1,6 @@
 //! Images that are drawn and read back.
 
-use shadowgraph_core::{Buffer, Compiled, Executed, Graph, Subresource, Timer};
+use shadowgraph_core::{Buffer, Compiled, Executed, Graph, ResourceId, Subresource, Timer};
 
 use super::Renderer;
 use super::counts::{CountRequests, read_back_error};
@@ -9,6 +9,15 @@ use crate::gpu::Gpu;
 use crate::render_view::RenderView;
 use crate::rendered::{RenderedFrame, RenderedImage};
 use crate::view_options::ViewOptions;
+
+/// A drawn view, and resources of its frame.
+pub(crate) struct Drawn {
+    pub(crate) frame: RenderedFrame,
+    /// The image.
+    pub(crate) image: ResourceId,
+    /// The GPU data of shadow maps, if there are any.
+    pub(crate) shadow_buffers: Option<[Buffer; 2]>,
+}
 
 impl Renderer {
     /// Draws a view and reads the image back.
@@ -32,27 +41,28 @@ impl Renderer {
         mut timer: Option<&mut Timer>,
     ) -> Result<RenderedFrame, Error> {
         let is_first = self.frames == 0;
-        let (mut frame, _) = self.draw_with(gpu, options, |compiled, graph| match timer.as_deref_mut() {
-            // Its pipelines are created as its passes are recorded.
-            None if is_first => Ok(compiled.execute_submitted(graph, &gpu.device, &gpu.queue)?),
-            None => gpu.submit(|encoder| Ok(compiled.execute(graph, &gpu.device, encoder)?)),
-            Some(timer) => {
-                gpu.submit(|encoder| Ok(compiled.execute_timed(graph, &gpu.device, encoder, timer)?))
-            }
-        })?;
+        let Drawn { mut frame, .. } =
+            self.draw_with(gpu, options, |compiled, graph| match timer.as_deref_mut() {
+                // Its pipelines are created as its passes are recorded.
+                None if is_first => Ok(compiled.execute_submitted(graph, &gpu.device, &gpu.queue)?),
+                None => gpu.submit(|encoder| Ok(compiled.execute(graph, &gpu.device, encoder)?)),
+                Some(timer) => {
+                    gpu.submit(|encoder| Ok(compiled.execute_timed(graph, &gpu.device, encoder, timer)?))
+                }
+            })?;
         if let Some(timer) = timer {
             frame.times = timer.read(&gpu.device, &gpu.queue)?;
         }
         Ok(frame)
     }
 
-    /// Draws a view whose frame `execute` executes and submits, and returns it with the GPU data of its shadow maps.
+    /// Draws a view whose frame `execute` executes and submits.
     pub(crate) fn draw_with(
         &mut self,
         gpu: &Gpu,
         options: &ViewOptions,
         execute: impl FnOnce(Compiled<'_>, &mut Graph) -> Result<Executed, Error>,
-    ) -> Result<(RenderedFrame, Option<[Buffer; 2]>), Error> {
+    ) -> Result<Drawn, Error> {
         let [width, height] = options.size_px;
         let limit = gpu.device.limits().max_texture_dimension_2d;
         if width.max(height) > limit {
@@ -75,7 +85,8 @@ impl Renderer {
             let values = executed.take_values().map(|values| values.wait(&gpu.device)).transpose()?;
             let (plan, times) = (executed.shared_plan(), Vec::new());
             let unshadowed = output.unshadowed;
-            Ok((RenderedFrame { image, plan, times, unshadowed, counts, values }, output.shadow_buffers))
+            let frame = RenderedFrame { image, plan, times, unshadowed, counts, values };
+            Ok(Drawn { frame, image: output.image.id(), shadow_buffers: output.shadow_buffers })
         });
         self.count_frame();
         drawn

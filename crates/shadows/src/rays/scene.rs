@@ -311,6 +311,11 @@ impl RayScene {
         SurfaceKinds { cutouts: used().any(|set| set.cutouts), tints: used().any(|set| set.tints) }
     }
 
+    /// Returns the instance with an index among those of the buffers.
+    pub(super) fn instance_at(&self, index: u32) -> Option<RayInstanceKey> {
+        self.placed.iter().find(|(_, placed)| placed.index == index).map(|(key, _)| key)
+    }
+
     /// Returns all instances that can be hit, and the triangles of their meshes.
     pub(crate) fn all(&self) -> impl Iterator<Item = (&RayInstance, &[RayTriangle])> {
         let reached = self.placed.iter().filter(|(key, placed)| self.is_reached(*key, placed));

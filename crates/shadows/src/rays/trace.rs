@@ -11,7 +11,7 @@ use super::gpu_structs::{
 };
 use super::instance::BOX_MARGIN;
 use super::tree::{MESH_DEPTH, TOP_DEPTH};
-use super::{Ray, RayScene, TriangleHit};
+use super::{Ray, RayInstanceKey, RayScene, TriangleHit};
 
 /// The nearest opaque point along a ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,13 +20,15 @@ pub struct NearestHit {
     pub distance_m: f32,
     /// The corners of the hit triangle, metres relative to the origin.
     pub corners: [Vec3; 3],
+    /// The instance that was hit.
+    pub instance: RayInstanceKey,
 }
 
 impl RayScene {
     /// Returns whether the ray hits an opaque surface.
     #[must_use]
     pub fn is_occluded(&self, ray: &Ray) -> bool {
-        let opaque = |instance: &_, triangle: &_, _| match self.hit(ray, instance, triangle) {
+        let opaque = |(_, instance): (u32, &_), triangle: &_, _| match self.hit(ray, instance, triangle) {
             Some(Hit { transmittance: None, .. }) => Break(()),
             _ => Continue(ray.max_m()),
         };
@@ -37,7 +39,7 @@ impl RayScene {
     #[must_use]
     pub fn transmittance(&self, ray: &Ray) -> Vec3 {
         let mut transmittance = Vec3::ONE;
-        let pass = |instance: &_, triangle: &_, _| {
+        let pass = |(_, instance): (u32, &_), triangle: &_, _| {
             match self.hit(ray, instance, triangle) {
                 Some(Hit { transmittance: None, .. }) => return Break(()),
                 Some(Hit { transmittance: Some(factor), .. }) => transmittance *= factor,
@@ -58,16 +60,19 @@ impl RayScene {
     #[must_use]
     pub fn nearest_hit(&self, ray: &Ray) -> Option<NearestHit> {
         let mut nearest = None;
-        let nearer = |instance: &RayInstance, triangle: &_, end_m| match self.hit(ray, instance, triangle) {
+        let nearer = |(index, instance): (u32, &RayInstance), triangle: &_, end_m| match self
+            .hit(ray, instance, triangle)
+        {
             Some(Hit { distance_m, transmittance: None }) if distance_m < end_m => {
-                nearest = Some(NearestHit { distance_m, corners: instance.corners(triangle) });
+                nearest = Some((index, distance_m, instance.corners(triangle)));
                 Continue(distance_m)
             }
             _ => Continue(end_m),
         };
         // Never breaks.
         let _ = self.traverse(ray, nearer);
-        nearest
+        let (index, distance_m, corners) = nearest?;
+        Some(NearestHit { distance_m, corners, instance: self.instance_at(index)? })
     }
 
     /// Returns the [nearest distance](Self::nearest_distance) by a test of every triangle: slow, for tests of the trees.
@@ -100,7 +105,7 @@ impl RayScene {
     fn traverse(
         &self,
         ray: &Ray,
-        mut visit: impl FnMut(&RayInstance, &RayTriangle, f32) -> ControlFlow<(), f32>,
+        mut visit: impl FnMut((u32, &RayInstance), &RayTriangle, f32) -> ControlFlow<(), f32>,
     ) -> ControlFlow<()> {
         let (nodes, instances) = (self.nodes.elements(), self.instances.elements());
         let coordinates_m = self.max_coordinate_m() + ray.origin().abs().max_element();
@@ -108,7 +113,7 @@ impl RayScene {
         let mut end_m = ray.max_m();
         let (mut stack, mut height) = ([0; MESH_DEPTH + TOP_DEPTH], 0);
         // The current level: the ray in its space, its instance, and the height of the stack below it.
-        let (mut slabs, mut instance, mut base) = (world, &RayInstance::default(), 0);
+        let (mut slabs, mut instance, mut base) = (world, (0, &RayInstance::default()), 0);
         // A pair of nodes or an instance. The root is in no pair, so 0 means none.
         let mut next = if world.enters(&nodes[0]) < end_m { nodes[0].first } else { 0 };
         loop {
@@ -129,10 +134,12 @@ impl RayScene {
                     entered.swap(0, 1);
                 }
             } else {
-                instance = &instances[(next & !RAY_INSTANCE) as usize];
-                slabs = slabs_in_mesh(ray, instance, coordinates_m);
+                let index = next & !RAY_INSTANCE;
+                instance = (index, &instances[index as usize]);
+                slabs = slabs_in_mesh(ray, instance.1, coordinates_m);
                 base = height;
-                entered[0] = (slabs.enters(&nodes[instance.root as usize]), instance.root);
+                let root = instance.1.root;
+                entered[0] = (slabs.enters(&nodes[root as usize]), root);
             }
             next = 0;
             for (enters, index) in entered {

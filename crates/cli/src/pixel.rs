@@ -1,0 +1,43 @@
+//! `shadowgraph pixel`.
+
+use std::path::Path;
+
+use serde_json::json;
+
+use super::args::PixelArgs;
+use super::commands::{input, play};
+use super::console;
+use super::failure::Failure;
+use super::progress::Progress;
+use shadowgraph::output::write_text;
+use shadowgraph::{Gpu, Registry};
+use shadowgraph_quality::ShadowInspector;
+
+/// `shadowgraph pixel`
+pub(crate) fn pixel(args: &PixelArgs, registry: &Registry) -> Result<(), Failure> {
+    let is_json = args.output.as_deref().is_some_and(is_json);
+    let input = input(&args.draw, registry)?;
+    let config = input.options.render_config();
+    let gpu = Gpu::open(&input.options.adapter).map_err(Failure::no_device)?;
+    let drawing = Progress::if_slow("drawing");
+    let (mut renderer, view) = play(&gpu, input, args.frames, &drawing, &mut |_, _| Ok(()))?;
+    let (_, history) = renderer.pixel_history(&gpu, &view, args.pixel)?;
+    drawing.set("shadows", 0.5);
+    let shadows = ShadowInspector::new(&gpu, renderer.scene(), &view, &config)?.shadows_at(args.pixel)?;
+    let text = if is_json {
+        serde_json::to_string_pretty(&json!({ "history": history, "shadows": shadows }))? + "\n"
+    } else {
+        format!("{}\n{}", history.to_text(), shadows.to_text())
+    };
+    match &args.output {
+        Some(file) => {
+            write_text(file, &text)?;
+            console::print(&format!("wrote {}\n", file.display()))
+        }
+        None => console::print(&text),
+    }
+}
+
+fn is_json(file: &Path) -> bool {
+    file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("json"))
+}
