@@ -1,8 +1,8 @@
 // Marks the pages of virtual shadow maps that visible surfaces are read from. A thread has a block of pixels: it reads each light once, and
 // tests the bounds of the block instead of its pixels where these cannot differ by more than a page.
 #import shadowgraph::float_order::{decoded, encoded}
-#import shadowgraph::view::{direction_to_camera, pixels_per_metre, view, view_depth_of}
-#import shadowgraph::surface::unpack_normal
+#import shadowgraph::view::{direction_to_camera, pixels_per_metre, view, view_depth_of, view_ray}
+#import shadowgraph::surface::{pack_normal, unpack_normal}
 #import shadowgraph::shadows::cube::cube_face
 #import shadowgraph::shadows::pages::{
     Level, MapPoint, Page, PAGE_TEXELS, Projection, biased, direction_to_light, entry_of, has_entry, in_level, narrowing, page_of, project,
@@ -23,6 +23,8 @@ const LEAST_COSINE: f32 = -0.05;
 // The largest difference of normals, along an axis, in a block that is tested as a plane, and the error of its levels.
 const PLANE_NORMALS: f32 = 0.01;
 const PLANE_LEVELS: f32 = 0.05;
+// The fall of rays, metres a metre, at which the ground is taken to be infinitely far.
+const LEAST_FALL: f32 = 1e-3;
 // Lights that are tested together.
 const BATCH: u32 = 64u;
 
@@ -71,7 +73,22 @@ fn surface_at(pixel: vec2u) -> vec4f {
     if any(pixel >= textureDimensions(surfaces)) {
         return vec4f(0.0);
     }
-    return textureLoad(surfaces, pixel, 0);
+    let surface = textureLoad(surfaces, pixel, 0);
+    if surface.w < 1.0 && pages_frame.has_ground == 1u {
+        return ground_at(pixel);
+    }
+    return surface;
+}
+
+// The point of the ground that a pixel shows.
+fn ground_at(pixel: vec2u) -> vec4f {
+    let ray = view_ray(vec2f(pixel) + 0.5);
+    let fall = -ray.direction.y;
+    let above = ray.start.y - pages_frame.ground_height;
+    if above <= 0.0 || fall <= LEAST_FALL {
+        return vec4f(0.0);
+    }
+    return vec4f(ray.start + ray.direction * (above / fall), pack_normal(vec3f(0.0, 1.0, 0.0)));
 }
 
 // The bounds of a linear function in a block.

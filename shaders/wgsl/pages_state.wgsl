@@ -27,6 +27,10 @@ struct PagesFrame {
     level_bias: f32,
     // 1: no page is valid.
     is_reset: u32,
+    // The height of a plane that is lit where no surface is visible, if there is one.
+    ground_height: f32,
+    has_ground: u32,
+    padding: vec2u,
     // Projection, level, and place.
     coarse: array<vec4i, MAX_COARSE>,
     // The centre and half the size of the bounds of static casters that have changed, before and after; then of moving casters that have

@@ -75,8 +75,13 @@ impl<'v> RenderView<'v> {
     pub fn with_sky(&self, frame: &mut Frame<'_>, buffers: &ViewBuffers, sky: &SkyLight) -> ViewBuffers {
         let origin_world = self.casters.scene.origin_world();
         let light = sky.upload(frame, self.ground.as_ref(), self.backdrop(), origin_world);
-        let ground_height = self.ground.map(|ground| (ground.height_world - origin_world.y) as f32);
-        ViewBuffers { sky: Some(light), ground_height, ..buffers.clone() }
+        ViewBuffers { sky: Some(light), ground_height: self.ground_height(), ..buffers.clone() }
+    }
+
+    /// Returns the height of the ground relative to the frame's origin, metres, if the image shows one.
+    pub fn ground_height(&self) -> Option<f32> {
+        let origin_world = self.casters.scene.origin_world();
+        self.ground.map(|ground| (ground.height_world - origin_world.y) as f32)
     }
 
     /// Returns the visible geometry, for passes of `frame`. If the GPU culls, adds the pass that does, unless the frame has it.

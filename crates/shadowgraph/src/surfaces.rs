@@ -67,6 +67,7 @@ impl SurfaceDrawer {
         let surfaces = self.add_to(frame, view, depth, geometry)?;
         let (view, lights) = (view.view.clone(), view.lights.clone());
         let has_blended = !geometry.draws.blend.is_empty();
-        Ok(SurfaceBuffers { size_px: geometry.size_px, view, lights, surfaces, has_blended })
+        let size_px = geometry.size_px;
+        Ok(SurfaceBuffers { size_px, view, lights, surfaces, has_blended, ground_height: None })
     }
 }

@@ -105,6 +105,7 @@ fn add(technique: &dyn ShadowTechnique, settings: &ShadowSettings) -> Result<(),
         lights: frame.upload_buffer("lights", vec![0; 64]),
         surfaces,
         has_blended: false,
+        ground_height: None,
     };
     add_shadows(technique, &mut frame, &inputs, Some(&buffers)).map(drop)
 }

@@ -5,7 +5,7 @@ use crate::stage::gpu;
 use glam::{DAffine3, DMat4, DVec3, Vec3};
 use shadowgraph::options::{Aov, GroundChoice, ShadowDistance, SunChoice};
 use shadowgraph::scene::{Aabb, Camera, Light, Material, Mesh, Projection, Scene};
-use shadowgraph::shadows::{NONE, PCF};
+use shadowgraph::shadows::{NONE, PCF, RAYTRACED, SDSM, Technique, VIRTUAL};
 use shadowgraph::{Background, Gpu, Pipeline, RenderConfig, RenderedImage, Renderer, ViewOptions};
 
 const SIZE_PX: [u32; 2] = [320, 180];
@@ -119,6 +119,28 @@ fn a_cube_without_a_floor_casts_its_shadow_on_the_ground() {
     let with = color(gpu, &scene, &camera, Background::Sky);
     let in_shadow = shadowed(&with, &without);
     assert!((0.03..0.4).contains(&in_shadow), "{in_shadow}");
+}
+
+#[test]
+fn shadows_on_the_ground_are_those_of_rays_with_every_technique() {
+    let Some(gpu) = gpu() else { return };
+    let (mut scene, camera) = cube();
+    GroundChoice::Auto.place(&scene, true).add_to(&mut scene);
+    let image = |technique: Technique| draw(gpu, &scene, &camera, Aov::Color, technique.into());
+    let rays = image(RAYTRACED.into());
+    let differing = |image: &RenderedImage| {
+        let pairs = pixels(image).zip(pixels(&rays));
+        pairs.filter(|(a, b)| a.iter().zip(b).any(|(a, b)| a.abs_diff(*b) > 24)).count()
+    };
+    let shadow = differing(&image(NONE.into()));
+    for kind in [PCF, SDSM, VIRTUAL] {
+        let plain = Technique::from(kind);
+        for technique in [plain, plain.with_screen(), plain.with_contact()] {
+            let wrong = differing(&image(technique));
+            println!("{}: {wrong} of {shadow} pixels in shadow", technique.name());
+            assert!(shadow > 1000 && wrong * 20 < shadow, "{}: {wrong} of {shadow}", technique.name());
+        }
+    }
 }
 
 #[test]

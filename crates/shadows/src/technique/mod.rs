@@ -99,4 +99,6 @@ pub struct SurfaceBuffers {
     pub surfaces: Texture,
     /// Whether blended geometry is drawn after the surfaces.
     pub has_blended: bool,
+    /// The height of a plane that is lit where nothing is drawn, metres relative to the frame's origin; `None` without one.
+    pub ground_height: Option<f32>,
 }

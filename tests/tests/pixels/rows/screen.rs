@@ -150,6 +150,7 @@ fn prepare(scene: Scene, options: &ViewOptions, has_blended: bool) -> Prepared {
         lights: frame.upload_buffer("lights", vec![0; 64]),
         surfaces,
         has_blended,
+        ground_height: None,
     };
     let outputs = add_shadows(&screen_shadows, &mut frame, &inputs, Some(&buffers)).unwrap();
     let modules = screen_shadows.modules(outputs.variant);

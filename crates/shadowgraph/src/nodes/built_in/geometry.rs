@@ -62,7 +62,8 @@ impl Geometry {
             1 => drawer.surface_buffers(frame, buffers, &depth, geometry),
             _ => drawer.surface_buffers_with_prepass(frame, buffers, geometry),
         });
-        Ok((depth, surfaces.transpose()?))
+        let above_ground = |surfaces| SurfaceBuffers { ground_height: view.ground_height(), ..surfaces };
+        Ok((depth, surfaces.transpose()?.map(above_ground)))
     }
 }
 

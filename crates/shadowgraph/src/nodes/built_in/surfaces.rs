@@ -1,6 +1,7 @@
 //! `surfaces`
 
 use shadowgraph_core::Frame;
+use shadowgraph_shadows::SurfaceBuffers;
 
 use crate::build_context::BuildContext;
 use crate::error::Error;
@@ -38,7 +39,7 @@ impl Node for Surfaces {
         if let Some(drawer) = &self.drawer {
             let geometry = view.geometry(frame);
             let surfaces = drawer.surface_buffers_with_prepass(frame, &ports.view("view")?, &geometry)?;
-            ports.set("surfaces", surfaces);
+            ports.set("surfaces", SurfaceBuffers { ground_height: view.ground_height(), ..surfaces });
         }
         Ok(())
     }

@@ -185,7 +185,8 @@ impl ShadowTechnique for ScreenShadows {
             .extend([ShadowBinding::TextureArray(bound.clone()), ShadowBinding::Uniform(layers.block)]);
         outputs.debug.push(("shadow mask", bound));
         let casting = inputs.lights.iter().filter(|light| light.casts_shadow).count();
-        if casting == mask_layers.light_count() && !buffers.has_blended {
+        let masks_all = !buffers.has_blended && buffers.ground_height.is_none();
+        if casting == mask_layers.light_count() && masks_all {
             outputs.variant = self.mask_only();
         }
         Ok(outputs)

@@ -127,7 +127,7 @@ impl Passes {
         (plan, casters): (&VirtualPlan, &'f dyn LayeredCasters),
         (store, next, boxes): (&Arc<PageStore>, StoreState, &Boxes),
     ) -> FrameBuffers {
-        let block = frame_block(inputs, settings, plan, (store, &next, boxes));
+        let block = frame_block((inputs, buffers.ground_height), settings, plan, (store, &next, boxes));
         let upload = |frame: &mut Frame<'f>, name: &'static str, bytes: &[u8]| {
             frame.upload_buffer(name, bytes.to_vec())
         };
@@ -326,7 +326,7 @@ impl Steps {
 
 /// Returns the bytes of `PagesFrame` of `pages_state.wgsl`.
 fn frame_block(
-    inputs: &ShadowInputs<'_>,
+    (inputs, ground_height): (&ShadowInputs<'_>, Option<f32>),
     settings: &VirtualSettings,
     plan: &VirtualPlan,
     (store, next, boxes): (&PageStore, &StoreState, &Boxes),
@@ -358,6 +358,10 @@ fn frame_block(
         NEEDS,
         settings.level_bias.to_bits(),
         u32::from(boxes.changed.is_none()),
+        ground_height.unwrap_or(0.0).to_bits(),
+        u32::from(ground_height.is_some()),
+        0,
+        0,
     ];
     [bytemuck::cast_slice(&header), bytemuck::cast_slice(&coarse), bytemuck::cast_slice::<_, u8>(&words)]
         .concat()
