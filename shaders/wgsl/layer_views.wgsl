@@ -1,4 +1,5 @@
-// Views that the GPU writes, each for a layer of depth.
+// Views that the GPU writes, each for a layer of depth. Casters are drawn into them by implementations of LayeredCasters, which says how;
+// cull_layers.wgsl and depth_layers.wgsl are one.
 #define_import_path shadowgraph::layer_views
 
 // The casters of a view: CASTERS_*.
@@ -7,7 +8,7 @@ const CASTERS_MOVING: u32 = 2u;
 
 // 96 bytes.
 struct LayerView {
-    // To the layer: x and y -w to w, y up, z/w 1 nearest and 0 farthest.
+    // From positions relative to the frame's origin to the layer: x and y -w to w, y up, z/w 1 nearest and 0 farthest.
     clip_from_world: mat4x4f,
     // Offset from a pixel of the layer to its world-aligned texel, modulo 1024.
     noise_px: vec2u,

@@ -17,6 +17,7 @@ use shadowgraph_shadows::{RAYTRACED, Unshadowed, VIRTUAL};
 
 use super::ground_truth::{RayLight, receiver};
 use super::scene_truth::SceneTruth;
+use super::subpixel::SubpixelReference;
 use super::{SurfaceReader, Surfaces};
 
 use crate::Error;
@@ -70,6 +71,9 @@ pub struct PixelLight {
     pub ray: Option<[f32; 3]>,
     /// The nearest opaque surface along that ray.
     pub blocker: Option<PixelBlocker>,
+    /// Whether rays from points within a pixel of its centre differ: the pixel is at the edge of a shadow, where a filter differs from one ray.
+    /// Only known where the technique differs from the ray by more than one half.
+    pub is_at_edge: bool,
     /// If the technique differs from the ray by more than one half: a change of a setting that lowers the difference.
     pub remedy: Option<PixelRemedy>,
 }
@@ -178,6 +182,7 @@ impl<'i> ShadowInspector<'i> {
                 found.visibility = rgb(image, index);
             }
             if found.differs() && found.unshadowed.is_none() {
+                found.is_at_edge = self.traced(index).is_at_edge(light);
                 found.remedy = self.remedy(index, &found)?;
             }
             Ok(found)
@@ -311,6 +316,7 @@ impl Traced<'_> {
             visibility: None,
             ray: None,
             blocker: None,
+            is_at_edge: false,
             remedy: None,
         };
         let receiver = receiver(self.surfaces, self.index, self.eye());
@@ -326,6 +332,12 @@ impl Traced<'_> {
         found.ray = Some(hard.visibility.to_array());
         found.blocker = self.blocker(rays, &source.shape, &receiver);
         found
+    }
+
+    fn is_at_edge(&self, light: &Light) -> bool {
+        let source = RayLight::new(light, 0.0, self.origin_world);
+        let Some(rays) = self.truth.rays() else { return false };
+        SubpixelReference::new(rays, &source, self.surfaces, self.options).changes_around(self.index)
     }
 
     fn blocker(&self, rays: &RayScene, light: &LightShape, receiver: &ReceiverPoint) -> Option<PixelBlocker> {
@@ -372,13 +384,16 @@ fn described(light: &PixelLight) -> String {
         (None, _) => "nothing blocks".into(),
     };
     let unshadowed = light.unshadowed.as_ref().map_or_else(String::new, |why| format!("; no shadows: {why}"));
+    let place = if light.is_at_edge {
+        "at an edge, where the technique differs"
+    } else {
+        "the technique is wrong here"
+    };
     let differs = match &light.remedy {
         Some(PixelRemedy { setting, visibility }) => {
-            format!("; the technique is wrong here: `{setting}` gives {}", shown(*visibility))
+            format!("; {place}: `{setting}` gives {}", shown(*visibility))
         }
-        None if light.differs() => {
-            "; the technique is wrong here, and no setting that was tried helps".into()
-        }
+        None if light.differs() => format!("; {place}, and no setting that was tried helps"),
         None => String::new(),
     };
     format!("{visibility}{truth}{differs}{unshadowed}")

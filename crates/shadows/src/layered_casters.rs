@@ -5,8 +5,21 @@ use shadowgraph_core::{
 };
 use shadowgraph_scene::Aabb;
 
-/// Casters that are drawn in views that only the GPU knows: each view has a layer of a buffer of depths. See the WGSL module
-/// `shadowgraph::layer_views`. A view has the static casters, the moving ones, or both.
+/// Casters that are drawn in views that only the GPU knows: each view has a layer of a buffer of depths. The WGSL module
+/// `shadowgraph::layer_views` has the types. A view has the static casters, the moving ones, or both.
+///
+/// `shadowgraph-lighting` and `shadowgraph-scene` implement it for a `GpuScene`: `LayerCullPass` and `draw_layers` with `cull_layers.wgsl`,
+/// `LayerPipelines` with `depth_layers.wgsl`. An engine with its own scene does the same:
+///
+/// - **Culling** ([`cull_layers`](Self::cull_layers)): of the first `min(count, capacity)` views of `LayerViews`, it finds the casters whose bounds
+///   may intersect the view, or what is nearer to the light than it. `clip_from_world` takes positions relative to the frame's origin. It writes
+///   `LayerViews::drawn`, how many of the first views its lists have room for (the others are requested again in the next frame), and `pairs`, the
+///   number of casters over all views. What `draws` and `pairs` of [`LayeredInstances`] contain is up to the engine.
+/// - **Drawing** ([`draw_layers`](Self::draw_layers)): instances are pairs of a caster and a view. There is no depth attachment; the colour attachment is
+///   [`R8Unorm`](wgpu::TextureFormat::R8Unorm), and nothing is written to it. The fragment stage keeps the largest depth: with s = `side_px`, it is
+///   `atomicMax(&depths[(view * s + y) * s + x], bitcast<u32>(depth))` at pixel (x, y). Depth is z/w, less `slope_bias` times its change to the next
+///   pixel, clamped to 0 to 1. Geometry in front of the near plane must not be clipped: output a z of w / 2, and pass z and w to the fragment stage.
+///   Dithered casters take their noise at pixel + `noise_px`, so that it stays in place.
 ///
 /// Layers hold the bits of floats: 1 nearest to the light, 0 farthest and empty. Casters in front of the near plane have depth 1. Casters that
 /// [tint](crate::ShadowCasters::tints) are drawn into layers of their own; they are found for static views if they are static, and for
@@ -32,9 +45,9 @@ pub trait LayeredCasters: Sync {
         false
     }
 
-    /// Draws the casters that tint into layers of tints, where the depth that the other casters have in their layer is not nearer: keeps the
-    /// nearest depth, and adds the density (see the WGSL module `shadowgraph::tint_density`). Returns the number of draw calls. The default
-    /// draws nothing.
+    /// Draws the casters that tint into layers of tints, where the depth that the other casters have in their layer is not nearer. With
+    /// `tint_layer` in place of the view's index, the depth is kept by `atomicMax` as above, and the density is added to three numbers in a word
+    /// (see the WGSL module `shadowgraph::tint_density`). Returns the number of draw calls. The default draws nothing.
     ///
     /// # Errors
     /// For tokens of another pass.

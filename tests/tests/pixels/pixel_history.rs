@@ -62,7 +62,7 @@ fn what_a_pass_of_the_history_reads_is_what_an_earlier_one_wrote() {
             .flat_map(|pass| &pass.writes)
             .any(|write| write.texture == "geometry/depth" && write.effect == WriteEffect::Cleared);
         assert!(is_sky || passes.contains(&"geometry/depth prepass"), "{passes:?}");
-        assert!(history.to_text().contains("wrote tonemap/image@1: "));
+        assert!(history.to_text().contains("wrote tonemap/image v1: "));
     }
 }
 

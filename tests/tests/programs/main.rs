@@ -11,5 +11,6 @@ mod hashes;
 mod measure;
 mod nodes;
 mod pages;
+mod pixel;
 #[cfg(target_os = "linux")]
 mod view;

@@ -73,8 +73,8 @@ pub(crate) struct DrawArgs {
     /// Shadow distance in metres, or auto for the end of the visible scene. Default: that of --settings, else auto
     #[arg(long, value_name = "auto|M", allow_negative_numbers = true)]
     shadow_distance: Option<String>,
-    /// The image to output: color, visibility:N (of light N), cascade, depth, normal, atlas, or the name of a
-    /// texture of the graph
+    /// The image to output: color, visibility:N (of light N), cascade, depth, normal, atlas, of the technique virtual pages and pool, or
+    /// the name of a texture of the graph
     #[arg(long, value_name = "NAME", default_value = "color")]
     aov: String,
     /// Lines over the image that show what shadow maps cover: frusta, the slices of the view and the boxes of tiles; spheres, those of

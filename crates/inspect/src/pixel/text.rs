@@ -26,10 +26,10 @@ fn write_pass(text: &mut String, pass: &PixelPass) {
         let _ = writeln!(text, "  {}", described(write));
     }
     for read in pass.reads.iter().filter(|read| !read.texels.is_empty()) {
-        let _ = writeln!(text, "  read {}@{}: {}", read.resource, read.version, values(&read.texels));
+        let _ = writeln!(text, "  read {} v{}: {}", read.resource, read.version, values(&read.texels));
     }
     let others = pass.reads.iter().filter(|read| read.texels.is_empty());
-    let others: Vec<_> = others.map(|read| format!("{}@{}", read.resource, read.version)).collect();
+    let others: Vec<_> = others.map(|read| format!("{} v{}", read.resource, read.version)).collect();
     if !others.is_empty() {
         let _ = writeln!(text, "  read, without a texel at the pixel: {}", others.join(", "));
     }
@@ -38,12 +38,12 @@ fn write_pass(text: &mut String, pass: &PixelPass) {
 fn described(write: &PixelWrite) -> String {
     let PixelWrite { texture, version, effect, before, after } = write;
     match effect {
-        WriteEffect::Elsewhere => format!("wrote {texture}@{version}, which has no texel at the pixel"),
-        WriteEffect::Kept => format!("left {texture}@{version} as it was: {}", values(after)),
-        WriteEffect::Cleared => format!("cleared {texture}@{version}: {}", values(after)),
-        WriteEffect::Written if before.is_empty() => format!("wrote {texture}@{version}: {}", values(after)),
+        WriteEffect::Elsewhere => format!("wrote {texture} v{version}, which has no texel at the pixel"),
+        WriteEffect::Kept => format!("left {texture} v{version} as it was: {}", values(after)),
+        WriteEffect::Cleared => format!("cleared {texture} v{version}: {}", values(after)),
+        WriteEffect::Written if before.is_empty() => format!("wrote {texture} v{version}: {}", values(after)),
         WriteEffect::Written => {
-            format!("wrote {texture}@{version}: {}, before {}", values(after), values(before))
+            format!("wrote {texture} v{version}: {}, before {}", values(after), values(before))
         }
     }
 }
