@@ -39,7 +39,7 @@ pub use measured_scene::{DEFAULT_VIEWS, MAX_LIGHTS, MeasuredLight, MeasuredScene
 pub use motion::{FAR_OFFSET_M, STEP_PX, SUN_STEP, camera_for_frame, camera_walk, turned_sun};
 pub use noise::{NoiseErrors, NoiseTask, Noisy, RootMeanSquare, measure_noise, noisy_techniques};
 pub use pixel_shadows::{
-    PixelBlocker, PixelLight, PixelRemedy, PixelShadows, PixelSurface, Reach, ShadowInspector,
+    PixelBlocker, PixelLight, PixelRemedy, PixelShadows, PixelSurface, Reachability, ShadowInspector,
 };
 pub use probe::{Points, Probe, Query, Results};
 pub use run::{CaseImages, Measured, Task, measure};

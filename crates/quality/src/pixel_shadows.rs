@@ -62,7 +62,7 @@ pub struct PixelLight {
     /// `directional`, `spot` or `point`.
     pub kind: &'static str,
     /// Whether its light can reach the surface.
-    pub reach: Reach,
+    pub reach: Reachability,
     /// Why it casts no shadow in this frame, if it does not.
     pub unshadowed: Option<String>,
     /// Red, green and blue of the image `visibility:N` at the pixel, 0 to 255, if light can reach the surface.
@@ -90,7 +90,7 @@ pub struct PixelRemedy {
 /// Whether a light can reach a surface, were it not for blockers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Reach {
+pub enum Reachability {
     /// It can.
     Reached,
     /// The surface faces away.
@@ -177,7 +177,7 @@ impl<'i> ShadowInspector<'i> {
         let lights = (0u32..).zip(self.scene.lights()).map(|(number, light)| {
             let mut found = self.traced(index).light(number, light);
             found.unshadowed = self.unshadowed(number, light);
-            if found.reach == Reach::Reached {
+            if found.reach == Reachability::Reached {
                 let (_, image) = self.visibility(number)?;
                 found.visibility = rgb(image, index);
             }
@@ -311,7 +311,7 @@ impl Traced<'_> {
             light: number,
             name: light.name.clone().unwrap_or_default(),
             kind: kind(light),
-            reach: Reach::Outside,
+            reach: Reachability::Outside,
             unshadowed: None,
             visibility: None,
             ray: None,
@@ -326,9 +326,9 @@ impl Traced<'_> {
         }
         let hard = trace_hard(rays, &source.shape, &receiver, true);
         if hard.faces_away {
-            return PixelLight { reach: Reach::FacesAway, ..found };
+            return PixelLight { reach: Reachability::FacesAway, ..found };
         }
-        found.reach = Reach::Reached;
+        found.reach = Reachability::Reached;
         found.ray = Some(hard.visibility.to_array());
         found.blocker = self.blocker(rays, &source.shape, &receiver);
         found
@@ -371,9 +371,9 @@ impl PixelShadows {
 
 fn described(light: &PixelLight) -> String {
     match light.reach {
-        Reach::FacesAway => return "dark: the surface faces away".into(),
-        Reach::Outside => return "dark: outside of its range or cone".into(),
-        Reach::Reached => {}
+        Reachability::FacesAway => return "dark: the surface faces away".into(),
+        Reachability::Outside => return "dark: outside of its range or cone".into(),
+        Reachability::Reached => {}
     }
     let visibility = light.visibility.map(|rgb| format!("visibility {}, ", shown(rgb))).unwrap_or_default();
     let truth = match (&light.blocker, light.ray) {

@@ -13,7 +13,7 @@ use shadowgraph_scene::Aabb;
 ///
 /// - **Culling** ([`cull_layers`](Self::cull_layers)): of the first `min(count, capacity)` views of `LayerViews`, it finds the casters whose bounds
 ///   may intersect the view, or what is nearer to the light than it. `clip_from_world` takes positions relative to the frame's origin. It writes
-///   `LayerViews::drawn`, how many of the first views its lists have room for (the others are requested again in the next frame), and `pairs`, the
+///   `LayerViews::drawn`, how many of the first views fit into its lists (the others are requested again in the next frame), and `pairs`, the
 ///   number of casters over all views. What `draws` and `pairs` of [`LayeredInstances`] contain is up to the engine.
 /// - **Drawing** ([`draw_layers`](Self::draw_layers)): instances are pairs of a caster and a view. There is no depth attachment; the colour attachment is
 ///   [`R8Unorm`](wgpu::TextureFormat::R8Unorm), and nothing is written to it. The fragment stage keeps the largest depth: with s = `side_px`, it is

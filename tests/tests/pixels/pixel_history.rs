@@ -10,7 +10,7 @@ use shadowgraph::scene::gltf;
 use shadowgraph::scene::{AnimationSelection, CasterMode, Light, LightKind, Scene};
 use shadowgraph::shadows::rays::ReceiverPoint;
 use shadowgraph::{Gpu, RenderConfig, Renderer, SceneRays, ViewOptions};
-use shadowgraph_quality::{PixelLight, PixelShadows, PixelSurface, Reach, ShadowInspector};
+use shadowgraph_quality::{PixelLight, PixelShadows, PixelSurface, Reachability, ShadowInspector};
 use shadowgraph_samples::demo::demo_scene;
 use shadowgraph_tests::random::Random;
 use shadowgraph_tests::{shared, skip};
@@ -120,7 +120,7 @@ fn hits(casters: &[Caster], origin: DVec3, direction: DVec3, end_m: f64) -> Vec<
     hits
 }
 
-/// Asserts that a light's blocker is the nearest opaque surface; false if that cannot be told without textures.
+/// Asserts that a light's blocker is the nearest opaque surface; false if that depends on a texture.
 fn assert_blocker(casters: &[Caster], origin: DVec3, light: &Light, found: &PixelLight) -> bool {
     let (direction, end_m) = match light.kind {
         LightKind::Directional { direction } => (-direction.normalize(), f64::INFINITY),
@@ -177,7 +177,7 @@ fn assert_shadows(gpu: &Gpu, name: &str, scene: &Scene, options: &ViewOptions, c
         };
         let origin = position + normal.as_dvec3() * f64::from(receiver.offset_m(reach_m));
         for (found, light) in lights.iter().zip(scene.lights()) {
-            if found.reach != Reach::Reached {
+            if found.reach != Reachability::Reached {
                 continue;
             }
             reached += 1;

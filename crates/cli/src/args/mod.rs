@@ -33,7 +33,7 @@ pub(crate) enum Command {
     Dump(DumpArgs),
     /// Explain the decisions about a pass or a resource of a frame: order, merging, load and store ops, memory
     Explain(ExplainArgs),
-    /// Tell the history of a pixel: the passes and textures that fed it, with their values there
+    /// Explain a pixel: the passes and textures that its value comes from, and the shadow of each light
     Pixel(PixelArgs),
     /// List pipelines, node kinds and techniques, or describe one of them
     Nodes(NodesArgs),

@@ -1,4 +1,4 @@
-//! The passes that fed a pixel.
+//! The passes that contribute to a pixel.
 
 use serde::Serialize;
 use shadowgraph_core::{ClearValue, Contents, PassId, Plan, ResourceDesc, ResourceId, Subresource};
@@ -13,7 +13,7 @@ pub struct PixelHistory {
     pub place: PixelPlace,
     /// The texture at whose end the history begins.
     pub output: String,
-    /// The passes that wrote what fed the pixel, the last one first.
+    /// The passes that contributed to the pixel, the last one first.
     pub passes: Vec<PixelPass>,
 }
 
@@ -22,7 +22,7 @@ pub struct PixelHistory {
 pub struct PixelPass {
     /// Path of the pass.
     pub pass: String,
-    /// What it wrote, of what fed the pixel.
+    /// What it wrote, of what contributed to the pixel.
     pub writes: Vec<PixelWrite>,
     /// What it read, if it changed the texel.
     pub reads: Vec<PixelRead>,
@@ -70,7 +70,7 @@ pub struct PixelRead {
     pub texels: Vec<PixelTexel>,
 }
 
-/// A part of a version that fed the pixel.
+/// A part of a version that contributed to the pixel.
 struct Need {
     resource: ResourceId,
     version: u32,
@@ -90,7 +90,7 @@ struct Walk<'w> {
 }
 
 impl Walk<'_> {
-    /// Returns the pass if it wrote what is needed, and replaces that by what fed it.
+    /// Returns the pass if it wrote what is needed, and replaces that by what it read.
     fn pass(&self, pass: PassId, needs: &mut Vec<Need>) -> Option<PixelPass> {
         let mut writes = Vec::new();
         let mut has_changed = false;

@@ -1,4 +1,4 @@
-//! The history of a pixel: what fed it, from the output back through versions and passes.
+//! The history of a pixel: what contributed to it, from the output back through versions and passes.
 
 mod history;
 mod place;
