@@ -8,7 +8,9 @@ use super::console;
 use super::failure::Failure;
 use super::progress::Progress;
 use super::report::{self, Planned};
-use shadowgraph::inspect::{self, ContentsRecorder, Dump, HtmlPage, PageTable, lights, trace_json};
+use shadowgraph::inspect::{
+    self, ContentsRecorder, Dump, HtmlPage, PageTable, Tolerance, lights, trace_json,
+};
 use shadowgraph::output::{write_bytes, write_text};
 use shadowgraph::{FrameCounts, Gpu, Pipeline, Registry, RenderedFrame};
 
@@ -18,7 +20,9 @@ const TITLE: &str = "Shadowgraph frame";
 /// `shadowgraph dump`
 pub(crate) fn dump(args: &DumpArgs, registry: &Registry) -> Result<(), Failure> {
     let text = match (&args.diff, args.format()?) {
-        (Some(files), format) => diff(files, format, args.tolerance)?,
+        (Some(files), format) => {
+            diff(files, format, Tolerance { relative: args.tolerance, outliers: args.outliers })?
+        }
         (None, Format::Json) if args.hashes => hashes(args, input(&args.draw, registry)?)?,
         (None, _) if args.hashes => return Err(usage("--hashes: the format is json, as of -o frame.json")),
         (None, Format::Html) => page(args, input(&args.draw, registry)?)?,
@@ -133,7 +137,7 @@ fn values_file(dump: &Path) -> PathBuf {
 }
 
 /// Returns the differences between the frames of two files.
-fn diff(files: &[PathBuf], format: Format, tolerance: f64) -> Result<String, Failure> {
+fn diff(files: &[PathBuf], format: Format, tolerance: Tolerance) -> Result<String, Failure> {
     let [before, after] = files else { return Err(usage("--diff: expected two files")) };
     let (read_before, read_after) = (read(before)?, read(after)?);
     let failed = |problem| Failure { code: Failure::INPUT, message: format!("--diff: {problem}") };

@@ -4,7 +4,7 @@ mod facts;
 mod html;
 
 use crate::Error;
-use crate::contents::ContentsDiff;
+use crate::contents::{ContentsDiff, Tolerance};
 pub use facts::Dump;
 use facts::Facts;
 use serde::Serialize;
@@ -99,12 +99,11 @@ impl Dump {
     }
 
     /// Compares this frame with another like [`diff`](Self::diff), and what their passes have written too, if both dumps
-    /// [say so](Self::has_contents). Numbers that differ by at most `tolerance` times the larger one, or times 1 if both are smaller, are equal
-    /// where both have [values](Self::with_values).
+    /// [say so](Self::has_contents). The tolerance applies where both have [values](Self::with_values).
     ///
     /// # Errors
     /// [`Error::Dump`] if a file of values is not that of its dump.
-    pub fn diff_with_contents(&self, after: &Self, tolerance: f64) -> Result<Diff, Error> {
+    pub fn diff_with_contents(&self, after: &Self, tolerance: Tolerance) -> Result<Diff, Error> {
         let contents = match (&self.contents, &after.contents) {
             (Some(before), Some(after)) => Some(before.diff(after, tolerance)?),
             _ => None,

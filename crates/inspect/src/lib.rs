@@ -26,7 +26,7 @@ mod html;
 mod pixel;
 mod trace;
 
-pub use contents::{ContentsDiff, ContentsDifference, ContentsRecorder, LargestDifference};
+pub use contents::{ContentsDiff, ContentsDifference, ContentsRecorder, LargestDifference, Tolerance};
 pub use diff::{Diff, Difference, Dump, Subject, diff};
 pub use error::Error;
 pub use explain::{explain, explain_order, explain_pass, explain_resource, explain_why_before};

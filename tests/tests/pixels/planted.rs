@@ -3,7 +3,7 @@
 
 use shadowgraph::Gpu;
 use shadowgraph::core::{Graph, ValueCheck, ValueReport};
-use shadowgraph::inspect::{ContentsRecorder, Dump};
+use shadowgraph::inspect::{ContentsRecorder, Dump, Tolerance};
 use shadowgraph_tests::planted::{Defect, Planted, RandomFrame, Shaders};
 use shadowgraph_tests::random::Random;
 
@@ -61,7 +61,8 @@ fn planted_defects_are_found_and_sound_frames_raise_no_alarm() {
     for number in 0..frames {
         let frame = RandomFrame::new(&mut random);
         let sound = record(gpu, &shaders, &frame, None);
-        let again = record(gpu, &shaders, &frame, None).diff_with_contents(&sound, 0.0).unwrap();
+        let again =
+            record(gpu, &shaders, &frame, None).diff_with_contents(&sound, Tolerance::default()).unwrap();
         assert!(again.is_empty(), "seed {seed}, frame {number}: {}", again.to_text());
         let (_, report) = check(gpu, &shaders, &frame, None);
         assert!(report.bad.is_empty(), "seed {seed}, frame {number}: {report:?}");
@@ -73,7 +74,7 @@ fn planted_defects_are_found_and_sound_frames_raise_no_alarm() {
         let planted = (0..20).find_map(|_| {
             let planted = frame.plant(defect, &mut random)?;
             let defective = record(gpu, &shaders, &frame, Some(planted));
-            let diff = sound.diff_with_contents(&defective, 0.0).unwrap();
+            let diff = sound.diff_with_contents(&defective, Tolerance::default()).unwrap();
             Some((planted, diff.contents.unwrap().first?))
         });
         let Some((planted, first)) = planted else { continue };

@@ -50,6 +50,11 @@ fn the_pass_of_a_changed_shader_is_named_and_damaged_values_are_refused() {
     let (_, out, _) = run(&["dump", "--diff", &first, &third, "--tolerance", "1"], None);
     assert!(!out.contains("lighting/forward"), "{out}");
 
+    let (_, out, _) = run(&["dump", "--diff", &first, &third, "--outliers", "0.01"], None);
+    assert!(out.contains("`lighting/forward`"), "{out}");
+    let (_, out, _) = run(&["dump", "--diff", &first, &third, "--outliers", "1"], None);
+    assert!(out.starts_with("contents: all "), "{out}");
+
     std::fs::write(file("third.values"), "not values").unwrap();
     let (output, _, err) = run(&["dump", "--diff", &first, &third], None);
     assert_eq!(output.status.code(), Some(1));

@@ -94,6 +94,10 @@ pub(crate) struct DumpArgs {
     #[arg(long, value_name = "T", requires = "diff", default_value_t = 0.0, allow_negative_numbers = true)]
     #[arg(value_parser = tolerance)]
     pub(crate) tolerance: f64,
+    /// With --diff: versions of textures and buffers of which at most the fraction F differs, of texels or words, are equal
+    #[arg(long, value_name = "F", requires = "diff", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(value_parser = tolerance)]
+    pub(crate) outliers: f64,
     /// Draw the frame, write a hash of each version of each texture and buffer into the JSON file, and their values into a file next to it,
     /// OUTPUT with the extension `values`: --diff then names the first pass that writes other values from equal inputs
     #[arg(long, requires = "output", conflicts_with_all = ["diff", "timings"])]

@@ -7,6 +7,16 @@ use serde::Serialize;
 use shadowgraph_core::Subresource;
 use std::collections::HashMap;
 
+/// What counts as equal where values are compared. The default: only equal bytes.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Tolerance {
+    /// Numbers are equal if they differ by at most this times the larger one, or times 1 if both are smaller.
+    pub relative: f64,
+    /// A version is equal if at most this fraction of its texels (of buffers, words of four bytes) differs, such as some at the edges of triangles,
+    /// which drivers round differently.
+    pub outliers: f64,
+}
+
 /// Differences of what the passes of two frames have written.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct ContentsDiff {
@@ -60,7 +70,7 @@ impl DumpedContents {
     ///
     /// # Errors
     /// If a file of values is not that of its dump.
-    pub(crate) fn diff(&self, after: &Self, tolerance: f64) -> Result<ContentsDiff, Error> {
+    pub(crate) fn diff(&self, after: &Self, tolerance: Tolerance) -> Result<ContentsDiff, Error> {
         let others: HashMap<_, _> = after.parts.iter().map(|part| (after.key(part), part)).collect();
         let outcome = |part| match others.get(&self.key(part)) {
             Some(other) => self.outcome(part, (after, other), tolerance),
@@ -83,7 +93,7 @@ impl DumpedContents {
         &self,
         part: &PartContents,
         (after, other): (&Self, &PartContents),
-        tolerance: f64,
+        tolerance: Tolerance,
     ) -> Result<Outcome, Error> {
         let (Some(was), Some(is)) = (&part.hash, &other.hash) else { return Ok(Outcome::Unknown) };
         if was == is {
@@ -96,8 +106,9 @@ impl DumpedContents {
         if was.len() != is.len() || *desc != after.resources[other.resource].desc {
             return Ok(Outcome::Differs(None));
         }
-        let values = texels::compare(desc, &part.part, [&was, &is], tolerance);
-        Ok(if values.count == 0 { Outcome::Equal } else { Outcome::Differs(Some(values)) })
+        let values = texels::compare(desc, &part.part, [&was, &is], tolerance.relative);
+        let is_equal = values.count as f64 <= tolerance.outliers * values.of as f64;
+        Ok(if is_equal { Outcome::Equal } else { Outcome::Differs(Some(values)) })
     }
 
     /// Returns what identifies a part in both frames.

@@ -4,7 +4,7 @@ mod compare;
 mod read;
 mod texels;
 
-pub use compare::{ContentsDiff, ContentsDifference};
+pub use compare::{ContentsDiff, ContentsDifference, Tolerance};
 pub(crate) use read::DumpedContents;
 pub use texels::LargestDifference;
 
