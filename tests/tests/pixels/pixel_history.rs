@@ -18,8 +18,9 @@ use shadowgraph_tests::{shared, skip};
 use crate::planted::from_env;
 use crate::stage::{gpu, view};
 
-/// Pixels of each scene, if `SHADOWGRAPH_SOAK` is not set.
-const PIXELS: u32 = 40;
+/// Pixels of the demo and of a real scene, which has more lights and takes longer, if `SHADOWGRAPH_SOAK` is not set.
+const PIXELS: u32 = 30;
+const REAL_PIXELS: u32 = 6;
 
 /// Hits whose distances differ by less than this, relative to the distance or to 1 m, are the same.
 const SAME_DISTANCE: f64 = 2e-3;
@@ -149,7 +150,8 @@ fn assert_blocker(casters: &[Caster], origin: DVec3, light: &Light, found: &Pixe
 }
 
 /// Compares the shadows at random pixels with the images of all lights and with rays.
-fn assert_shadows(gpu: &Gpu, name: &str, scene: &Scene, options: &ViewOptions, config: &RenderConfig) {
+fn assert_shadows(gpu: &Gpu, (name, scene): (&str, &Scene), options: &ViewOptions, pixels: u32) {
+    let config = &RenderConfig::default();
     let casters = casters(scene);
     let mut inspector = ShadowInspector::new(gpu, scene, options, config).unwrap();
     let images = (0u32..).zip(scene.lights()).map(|(number, _)| {
@@ -163,7 +165,7 @@ fn assert_shadows(gpu: &Gpu, name: &str, scene: &Scene, options: &ViewOptions, c
     let reach_m = SceneRays::new(scene, origin_world).unwrap().rays().max_coordinate_m();
     let mut random = Random::new(from_env("SHADOWGRAPH_SOAK_SEED", 0));
     let (mut reached, mut blocked, mut compared, mut wrong) = (0, 0, 0, 0);
-    for _ in 0..from_env("SHADOWGRAPH_SOAK", PIXELS) {
+    for _ in 0..from_env("SHADOWGRAPH_SOAK", pixels) {
         let [width, height] = options.size_px;
         let pixel = [random.below(width.into()) as u32, random.below(height.into()) as u32];
         let index = (pixel[1] * width + pixel[0]) as usize;
@@ -206,11 +208,11 @@ fn visibilities_and_blockers_of_random_pixels_are_those_of_images_and_of_rays() 
     let Some(gpu) = gpu() else { return };
     let mut scene = demo_scene();
     let options = view(scene.cameras[0].clone(), 100.0);
-    assert_shadows(gpu, "demo", &scene, &options, &RenderConfig::default());
+    assert_shadows(gpu, ("demo", &scene), &options, PIXELS);
     scene.set_time(AnimationSelection::All, 1.3).unwrap();
     let mut coarse = options.clone();
     (coarse.shadows.cascades.map_size_px, coarse.shadows.cascades.count) = (256, 1);
-    assert_shadows(gpu, "demo, moved, with a coarse map", &scene, &coarse, &RenderConfig::default());
+    assert_shadows(gpu, ("demo, moved, with a coarse map", &scene), &coarse, PIXELS);
 }
 
 #[test]
@@ -221,5 +223,5 @@ fn visibilities_and_blockers_of_a_real_scene_are_those_of_images_and_of_rays() {
     };
     let scene = gltf::load(&scenes.join("kaykit_dungeon_hall.glb")).unwrap();
     let camera = scene.cameras.first().cloned().unwrap_or_else(|| scene.framing_camera(16.0 / 9.0));
-    assert_shadows(gpu, "kaykit_dungeon_hall", &scene, &view(camera, 60.0), &RenderConfig::default());
+    assert_shadows(gpu, ("kaykit_dungeon_hall", &scene), &view(camera, 60.0), REAL_PIXELS);
 }
