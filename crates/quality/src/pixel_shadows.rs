@@ -124,7 +124,7 @@ impl PixelLight {
     }
 }
 
-/// Tells the shadows at pixels of a view of a scene.
+/// Explains the shadows at pixels of a view of a scene.
 pub struct ShadowInspector<'i> {
     gpu: &'i Gpu,
     scene: &'i Scene,
