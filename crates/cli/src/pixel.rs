@@ -9,13 +9,14 @@ use super::commands::{input, play};
 use super::console;
 use super::failure::Failure;
 use super::progress::Progress;
+use shadowgraph::options::OptionError;
 use shadowgraph::output::write_text;
 use shadowgraph::{Gpu, Registry};
 use shadowgraph_quality::ShadowInspector;
 
 /// `shadowgraph pixel`
 pub(crate) fn pixel(args: &PixelArgs, registry: &Registry) -> Result<(), Failure> {
-    let is_json = args.output.as_deref().is_some_and(is_json);
+    let is_json = args.output.as_deref().map_or(Ok(false), is_json)?;
     let input = input(&args.draw, registry)?;
     let config = input.options.render_config();
     let gpu = Gpu::open(&input.options.adapter).map_err(Failure::no_device)?;
@@ -38,6 +39,15 @@ pub(crate) fn pixel(args: &PixelArgs, registry: &Registry) -> Result<(), Failure
     }
 }
 
-fn is_json(file: &Path) -> bool {
-    file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("json"))
+/// Returns whether a file is JSON, not text, by its extension.
+fn is_json(file: &Path) -> Result<bool, OptionError> {
+    let extension = file.extension().map(|extension| extension.to_string_lossy().to_lowercase());
+    match extension.as_deref() {
+        Some("json") => Ok(true),
+        Some("txt") | None => Ok(false),
+        Some(other) => Err(OptionError::new(
+            "output",
+            format!("unknown extension `.{other}`; expected one of: txt, json"),
+        )),
+    }
 }

@@ -165,11 +165,7 @@ impl<'i> ShadowInspector<'i> {
     /// # Errors
     /// For a pixel outside of the image, and for a failure of the GPU.
     pub fn shadows_at(&mut self, pixel: [u32; 2]) -> Result<PixelShadows, Error> {
-        let size_px = self.options.size_px;
-        if pixel.iter().zip(&size_px).any(|(at, side)| at >= side) {
-            return Err(shadowgraph::Error::PixelOutside { pixel, size_px }.into());
-        }
-        let index = (pixel[1] * size_px[0] + pixel[0]) as usize;
+        let index = self.options.pixel_index(pixel)?;
         let technique = self.config.technique().name();
         if !self.surfaces.is_drawn(index) {
             return Ok(PixelShadows { technique, surface: None, lights: Vec::new() });

@@ -4,6 +4,7 @@ use glam::DVec3;
 use shadowgraph_scene::{Camera, Scene};
 use shadowgraph_shadows::{DistanceMeasure, ShadowSettings};
 
+use crate::error::Error;
 use crate::options::distance::ShadowDistance;
 
 /// Number of steps per factor of two of the automatic shadow distance.
@@ -49,6 +50,18 @@ impl ViewOptions {
     /// Returns the width of the image divided by its height.
     pub fn aspect(&self) -> f64 {
         f64::from(self.size_px[0]) / f64::from(self.size_px[1])
+    }
+
+    /// Returns the index of a pixel, column and row from the top left, in the rows of the image.
+    ///
+    /// # Errors
+    /// [`Error::PixelOutside`].
+    pub fn pixel_index(&self, pixel: [u32; 2]) -> Result<usize, Error> {
+        let ([x, y], size_px @ [width, height]) = (pixel, self.size_px);
+        if x >= width || y >= height {
+            return Err(Error::PixelOutside { pixel, size_px });
+        }
+        Ok(y as usize * width as usize + x as usize)
     }
 
     fn automatic_distance_m(&self, scene: &Scene) -> f64 {

@@ -53,6 +53,12 @@ fn a_place_outside_of_the_image_or_of_no_pixel_is_an_error_of_one_line() {
     let Some((output, out, err)) = pixel("96,0", &[]) else { return };
     assert_eq!((output.status.code(), out.as_str()), (Some(1), ""));
     assert!(err.ends_with("error: pixel 96,0 is outside of the image; expected 0,0 to 95,53\n"), "{err}");
+    let Some((output, _, err)) = pixel("4,4", &["-o", "pixel.png"]) else { return };
+    assert_eq!(output.status.code(), Some(1));
+    assert!(
+        err.ends_with("error: --output: unknown extension `.png`; expected one of: txt, json\n"),
+        "{err}"
+    );
     for place in ["48", "a,b", "-1,3", "1,2,3"] {
         let Some((output, _, err)) = pixel(place, &[]) else { return };
         assert_eq!(output.status.code(), Some(1));

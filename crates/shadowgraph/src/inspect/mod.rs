@@ -91,11 +91,8 @@ impl Renderer {
         options: &ViewOptions,
         pixel: [u32; 2],
     ) -> Result<(RenderedFrame, PixelHistory), crate::Error> {
-        let size_px = options.size_px;
-        if pixel.iter().zip(&size_px).any(|(at, side)| at >= side) {
-            return Err(crate::Error::PixelOutside { pixel, size_px });
-        }
-        let mut recorder = PixelRecorder::new(PixelPlace { pixel, size_px });
+        options.pixel_index(pixel)?;
+        let mut recorder = PixelRecorder::new(PixelPlace { pixel, size_px: options.size_px });
         let Drawn { frame, image, .. } = self.draw_with(gpu, options, |compiled, graph| {
             let plan = compiled.shared_plan();
             let mut add = |contained| recorder.add(&plan, &contained);

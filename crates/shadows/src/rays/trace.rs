@@ -53,26 +53,31 @@ impl RayScene {
     /// Returns the distance along the ray to the first opaque surface, metres.
     #[must_use]
     pub fn nearest_distance(&self, ray: &Ray) -> Option<f32> {
-        self.nearest_hit(ray).map(|hit| hit.distance_m)
+        self.nearest(ray).map(|(_, distance_m, _)| distance_m)
     }
 
-    /// Returns the first opaque point along the ray.
+    /// Returns the first opaque point along the ray. Its instance is found by a search among all.
     #[must_use]
     pub fn nearest_hit(&self, ray: &Ray) -> Option<NearestHit> {
+        let (index, distance_m, corners) = self.nearest(ray)?;
+        Some(NearestHit { distance_m, corners, instance: self.instance_at(index)? })
+    }
+
+    /// Returns the first opaque point along the ray: the index of its instance, the distance in metres, and the corners of the triangle.
+    fn nearest(&self, ray: &Ray) -> Option<(u32, f32, [Vec3; 3])> {
         let mut nearest = None;
-        let nearer = |(index, instance): (u32, &RayInstance), triangle: &_, end_m| match self
-            .hit(ray, instance, triangle)
-        {
-            Some(Hit { distance_m, transmittance: None }) if distance_m < end_m => {
-                nearest = Some((index, distance_m, instance.corners(triangle)));
-                Continue(distance_m)
+        let nearer = |(index, instance): (u32, &RayInstance), triangle: &_, end_m| {
+            let hit = self.hit(ray, instance, triangle);
+            let Some(Hit { distance_m, transmittance: None }) = hit else { return Continue(end_m) };
+            if distance_m >= end_m {
+                return Continue(end_m);
             }
-            _ => Continue(end_m),
+            nearest = Some((index, distance_m, instance.corners(triangle)));
+            Continue(distance_m)
         };
         // Never breaks.
         let _ = self.traverse(ray, nearer);
-        let (index, distance_m, corners) = nearest?;
-        Some(NearestHit { distance_m, corners, instance: self.instance_at(index)? })
+        nearest
     }
 
     /// Returns the [nearest distance](Self::nearest_distance) by a test of every triangle: slow, for tests of the trees.
