@@ -143,6 +143,9 @@ fn a_minute_of_play_and_the_controls_of_the_animation_and_of_the_sun() {
 
     view.tap(u32::from('p'));
     stands(&mut view, "P to pause");
+    // The time at which it paused is any, also one that a place of the slider shows.
+    view.press(along(controls::TIME, 0.6));
+    stands(&mut view, "the first time to stand");
     for fraction in [0.1, 0.9, 0.3] {
         let before = now(&view);
         view.press_until(along(controls::TIME, fraction), "another time", another(before));
@@ -172,6 +175,9 @@ fn a_minute_of_play_and_the_controls_of_the_animation_and_of_the_sun() {
     view.tap(u32::from('l'));
     stands(&mut view, "the day to pause");
     view.keep("13 day played");
+    // The hour at which it paused is any, too.
+    view.press(along(controls::HOUR, 0.8));
+    stands(&mut view, "the first hour to stand");
     for (control, fraction) in [(controls::HOUR, 0.4), (controls::LATITUDE, 0.7), (controls::DAY, 0.1)] {
         let before = now(&view);
         view.press_until(along(control, fraction), "another sun", another(before));

@@ -164,6 +164,14 @@ impl View {
         self.x.flush().unwrap();
     }
 
+    /// Presses the button of the mouse at a point for a second.
+    pub(super) fn press(&self, at: [i16; 2]) {
+        self.point(at);
+        self.button(BUTTON_PRESS_EVENT);
+        std::thread::sleep(Duration::from_secs(1));
+        self.button(BUTTON_RELEASE_EVENT);
+    }
+
     /// Presses the button of the mouse at a point until a condition holds, and releases it.
     pub(super) fn press_until(&mut self, at: [i16; 2], what: &str, holds: impl FnMut(&mut Self) -> bool) {
         self.point(at);
