@@ -89,6 +89,10 @@ pub(super) fn draw_frames(
     }
     let drawn = renderer.draw_timed(gpu, &view, timer.as_mut())?;
     report::unshadowed(&drawn.unshadowed).iter().for_each(|line| console::warning(line));
+    let draws_lines = || drawn.plan.passes().any(|(_, pass)| pass.name == "shadow lines");
+    if renderer.overlay().is_some() && !draws_lines() {
+        console::warning("--overlay draws nothing: the technique has no shadow maps with frusta");
+    }
     drawn.counts.shadow_warning.iter().for_each(|line| console::warning(line));
     keep(frames.count - 1, &drawn)?;
     Ok(drawn)

@@ -2,10 +2,11 @@
 
 use std::any::Any;
 use std::collections::BTreeMap;
+use std::fmt;
 use std::sync::{Arc, OnceLock};
 
 use ron::value::RawValue;
-use serde::de::DeserializeOwned;
+use serde::de::{DeserializeOwned, Error as _, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::{Map, Value};
 
@@ -27,9 +28,37 @@ pub trait NamedSettings:
 /// Files are read before the types of these settings are known, so the values are kept as RON. Each is parsed and checked once, when it is
 /// first read: by [`Techniques::check`](crate::Techniques::check) as files are loaded, which also finds names that no technique has. Clones
 /// share what was parsed.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 #[serde(transparent)]
 pub struct TechniqueSettings(BTreeMap<String, Entry>);
+
+impl<'de> Deserialize<'de> for TechniqueSettings {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_map(Entries)
+    }
+}
+
+/// Reads the map; a technique that is in it twice is an error.
+struct Entries;
+
+impl<'de> Visitor<'de> for Entries {
+    type Value = TechniqueSettings;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a map from the names of techniques to their settings")
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<TechniqueSettings, A::Error> {
+        let mut entries = BTreeMap::new();
+        while let Some((name, entry)) = map.next_entry::<String, Entry>()? {
+            if entries.contains_key(&name) {
+                return Err(A::Error::custom(format_args!("technique `{name}` has settings twice")));
+            }
+            entries.insert(name, entry);
+        }
+        Ok(TechniqueSettings(entries))
+    }
+}
 
 /// The settings of one technique.
 #[derive(Clone, Debug)]

@@ -65,6 +65,7 @@
     ("(techniques: {\"pcss\": (taps: 4)})", "s.ron:1:24: technique `pcss`: unknown field `taps`; expected one of: sun_radius_rad"),
     ("(techniques: {\"pcss\": (\n  sun_radius: 0.1)})", "s.ron:2:3: technique `pcss`: unknown field `sun_radius`; did you mean `sun_radius_rad`?"),
     ("(techniques: {\"pcss\": (blocker_taps: 3.5)})", "s.ron:1:39: technique `pcss`: expected an integer"),
+    ("(techniques: {\"pcss\": (), \"pcss\": ()})", "s.ron:1:37: technique `pcss` has settings twice"),
     ("(techniques: {\"pcss\": (blocker_taps: \"3\")})", "s.ron:1:38: technique `pcss`: expected an integer"),
     ("(techniques: {\"pcss\": 4})", "s.ron:1:23: technique `pcss`: expected a struct in parentheses"),
     ("(techniques: {\"pcss\": (blocker_taps: 400)})", "s.ron:1:38: invalid value: `techniques.pcss.blocker_taps` is 400; allowed: 1 to 64"),
