@@ -7,12 +7,14 @@ use super::console;
 use super::failure::Failure;
 use super::frame_files::FrameFiles;
 use super::progress::Progress;
+use super::recording;
 use super::report;
 use super::values::{self, Findings};
 use crate::args::options::Options;
 use shadowgraph::core::Timer;
 use shadowgraph::options::{Aov, CameraChoice, OptionError};
 use shadowgraph::output::{Pixels, write_png};
+use shadowgraph::recording::Recorder;
 use shadowgraph::scene::gltf::{self, LoadOptions, Progress as LoadProgress};
 use shadowgraph::scene::{Camera, Scene};
 use shadowgraph::shadows::ShadowSettings;
@@ -25,6 +27,8 @@ pub(crate) struct Input {
     pub(crate) options: Options,
     pub(crate) scene: Scene,
     pub(crate) camera: Camera,
+    /// What records the frames, if they are.
+    pub(crate) recorder: Option<Recorder>,
 }
 
 impl Input {
@@ -40,14 +44,14 @@ pub(crate) fn render(args: &RenderArgs, registry: &Registry) -> Result<(), Failu
     let files = FrameFiles::parse(&args.output)?;
     let ranges = args.check_values.as_deref();
     let check_values = ranges.map(values::parse).transpose()?;
-    let mut input = input(&args.draw, registry)?;
+    let mut input = recorded_input(&args.draw, registry, args.record.limit_mib())?;
     input.options.check_values = check_values;
     let gpu = Gpu::open(&input.options.adapter).map_err(Failure::no_device)?;
     let Options { aov, background, timings, .. } = input.options.clone();
     let mut findings = Findings::default();
     let [width, height] = view_options(&input)?.size_px;
     let FramesArgs { count, fps } = args.frames;
-    let drawn = draw_frames(&gpu, input, args.frames, &mut |number, frame| {
+    let (drawn, recorder) = draw_frames(&gpu, input, args.frames, &mut |number, frame| {
         ranges.map_or(Ok(()), |ranges| values::check_names(ranges, frame))?;
         findings.add(number, frame);
         let Some(file) = files.file(number, count) else { return Ok(()) };
@@ -63,6 +67,9 @@ pub(crate) fn render(args: &RenderArgs, registry: &Registry) -> Result<(), Failu
         FrameFiles::Last(_) => String::new(),
     };
     console::print(&format!("wrote {file}: {sequence}{width}x{height}, rendered by {adapter}\n"))?;
+    if let (Some(file), Some(recorder)) = (&args.record.file, recorder) {
+        recording::write(file, &recorder)?;
+    }
     if timings {
         console::print(&report::times(&drawn.times, &gpu.adapter))?;
     }
@@ -72,13 +79,13 @@ pub(crate) fn render(args: &RenderArgs, registry: &Registry) -> Result<(), Failu
 /// Takes a frame and its number.
 type Keep<'k> = dyn FnMut(u32, &RenderedFrame) -> Result<(), Failure> + 'k;
 
-/// Draws frames while the animations play, and returns the last.
+/// Draws frames while the animations play, and returns the last, and what has recorded them.
 pub(super) fn draw_frames(
     gpu: &Gpu,
     input: Input,
     frames: FramesArgs,
     keep: &mut Keep<'_>,
-) -> Result<RenderedFrame, Failure> {
+) -> Result<(RenderedFrame, Option<Recorder>), Failure> {
     let drawing = Progress::if_slow("drawing");
     let timings = input.options.timings;
     let (mut renderer, view) = play(gpu, input, frames, &drawing, keep)?;
@@ -95,7 +102,7 @@ pub(super) fn draw_frames(
     }
     drawn.counts.shadow_warning.iter().for_each(|line| console::warning(line));
     keep(frames.count - 1, &drawn)?;
-    Ok(drawn)
+    Ok((drawn, renderer.take_recorder()))
 }
 
 /// Draws all frames but the last, and returns the renderer and the view for the last.
@@ -110,6 +117,7 @@ pub(super) fn play(
     let mut view = tracked(&base, &input.options, input.options.time.0)?;
     let shadow_camera = shadow_camera(&input)?;
     let mut renderer = input.options.renderer(gpu, input.scene, &input.camera)?;
+    renderer.set_recorder(input.recorder);
     renderer.graph().check_values(input.options.check_values.clone());
     renderer.set_shadow_camera(shadow_camera);
     renderer.set_overlay(gpu, input.options.overlay)?;
@@ -141,7 +149,7 @@ fn pose(scene: &mut Scene, options: &Options, time_s: f64, camera: Camera) -> Re
 }
 
 /// Checks before drawing that the output is a PNG file.
-fn check_output(file: &Path) -> Result<(), Failure> {
+pub(crate) fn check_output(file: &Path) -> Result<(), Failure> {
     let other = file.extension().filter(|extension| !extension.eq_ignore_ascii_case("png"));
     let reason = match other {
         _ if file.is_dir() => "is a directory; expected a PNG file".into(),
@@ -153,10 +161,16 @@ fn check_output(file: &Path) -> Result<(), Failure> {
 
 /// Parses the options, loads the scene and applies the options to it.
 pub(crate) fn input(args: &DrawArgs, registry: &Registry) -> Result<Input, Failure> {
-    if let Some(folder) = &args.shaders {
-        check_shaders(folder)?;
-        shadowgraph::shaders::set_folder(Some(folder.clone()));
-    }
+    recorded_input(args, registry, None)
+}
+
+/// Creates an input like [`input`], with a recorder if there is a limit to its size, MiB.
+pub(crate) fn recorded_input(
+    args: &DrawArgs,
+    registry: &Registry,
+    record_mib: Option<u32>,
+) -> Result<Input, Failure> {
+    use_shaders(args)?;
     let options = args.options(registry)?;
     // A requested texture may belong to a node that no output depends on.
     if !matches!(options.aov, Aov::Texture(_)) {
@@ -166,6 +180,8 @@ pub(crate) fn input(args: &DrawArgs, registry: &Registry) -> Result<Input, Failu
     scene.notes.iter().for_each(|note| console::warning(note));
     let shows_ground = options.aov == Aov::Color && options.pipeline.has_sky();
     let ground = options.ground.place(&scene, shows_ground);
+    let recorder =
+        record_mib.map(|limit_mib| recording::recorder(args, &scene, &ground, limit_mib)).transpose()?;
     scene.set_time(options.animation.resolve(&scene.hierarchy)?, options.time.0)?;
     if let Some(note) = options.sun.apply(&mut scene) {
         console::warning(&note);
@@ -177,7 +193,16 @@ pub(crate) fn input(args: &DrawArgs, registry: &Registry) -> Result<Input, Failu
     if ground.add_to(&mut scene) && frames {
         camera.set_far(None);
     }
-    Ok(Input { options, scene, camera })
+    Ok(Input { options, scene, camera, recorder })
+}
+
+/// Replaces the built-in shaders by those of a directory, if one is given.
+pub(crate) fn use_shaders(args: &DrawArgs) -> Result<(), Failure> {
+    if let Some(folder) = &args.shaders {
+        check_shaders(folder)?;
+        shadowgraph::shaders::set_folder(Some(folder.clone()));
+    }
+    Ok(())
 }
 
 /// Checks that a directory has shaders.
@@ -204,7 +229,7 @@ fn apply_shadow_modes(settings: &ShadowSettings, scene: &mut Scene) {
 }
 
 /// Loads the scene of the arguments; without a file, creates a procedural one.
-fn scene(args: &DrawArgs) -> Result<Scene, Failure> {
+pub(crate) fn scene(args: &DrawArgs) -> Result<Scene, Failure> {
     let variant = args.variant.as_deref();
     if let Some(file) = &args.scene {
         return load(file, variant);
@@ -248,7 +273,7 @@ pub(crate) fn shadow_camera(input: &Input) -> Result<Option<Camera>, Failure> {
 }
 
 /// Returns the channels of an image that are written to the file.
-fn file_pixels(aov: &Aov, background: Background, image: &RenderedImage) -> (Pixels, Vec<u8>) {
+pub(crate) fn file_pixels(aov: &Aov, background: Background, image: &RenderedImage) -> (Pixels, Vec<u8>) {
     let pixels = image.rgba8.chunks_exact(4);
     match aov {
         Aov::Visibility(_) => (Pixels::GreyAlpha, pixels.flat_map(|p| [p[0], p[3]]).collect()),

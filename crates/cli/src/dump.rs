@@ -205,7 +205,7 @@ fn disabled(node: &str, pipeline: &Pipeline) -> String {
 fn planned(args: &DrawArgs, frames: FramesArgs, input: Input) -> Result<(Gpu, Planned), Failure> {
     if input.options.timings {
         let gpu = Gpu::open(&input.options.adapter).map_err(Failure::no_device)?;
-        let RenderedFrame { plan, times, unshadowed, counts, .. } =
+        let (RenderedFrame { plan, times, unshadowed, counts, .. }, _) =
             draw_frames(&gpu, input, frames, &mut |_, _| Ok(()))?;
         return Ok((gpu, Planned { plan, times, unshadowed, counts }));
     }

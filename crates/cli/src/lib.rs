@@ -18,6 +18,8 @@ mod nodes;
 mod noise;
 mod pixel;
 mod progress;
+mod recording;
+mod replay;
 mod report;
 mod values;
 #[cfg(feature = "view")]
@@ -51,7 +53,10 @@ pub fn run(registry: &Registry) -> ExitCode {
     runtime_dir();
     let done = match Cli::try_parse() {
         Ok(Cli { command: None }) => console::print(&Cli::command().render_help().to_string()),
-        Ok(Cli { command: Some(Command::Render(args)) }) => commands::render(&args, registry),
+        Ok(Cli { command: Some(Command::Render(args)) }) => match &args.replay.file {
+            Some(file) => replay::replay(file, &args, registry),
+            None => commands::render(&args, registry),
+        },
         Ok(Cli { command: Some(Command::Dump(args)) }) => dump::dump(&args, registry),
         Ok(Cli { command: Some(Command::Explain(args)) }) => dump::explain(&args, registry),
         Ok(Cli { command: Some(Command::Pixel(args)) }) => pixel::pixel(&args, registry),

@@ -4,11 +4,12 @@ use std::fmt;
 use std::sync::Arc;
 
 use glam::{Vec3, Vec4};
+use serde::{Deserialize, Serialize};
 
 use crate::keys::ImageKey;
 
 /// A metallic-roughness material. Texture values multiply the factors.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Material {
     /// The name in the file; empty if it has none.
     pub name: String,
@@ -120,7 +121,7 @@ impl Material {
 }
 
 /// Kind of shadow that a material casts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum CasterMode {
     /// The whole surface casts a shadow, regardless of alpha.
     On,
@@ -137,7 +138,7 @@ pub enum CasterMode {
 }
 
 /// The alpha mode of a material.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub enum AlphaMode {
     /// Alpha is ignored.
     #[default]
@@ -155,7 +156,7 @@ pub enum AlphaMode {
 }
 
 /// The use of an image by a material.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TextureRef {
     /// The image of the scene.
     pub image: ImageKey,
@@ -179,7 +180,7 @@ impl TextureRef {
 }
 
 /// Filtering and wrapping of an image.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Sampler {
     /// Wrapping beyond the left and right edges.
     pub wrap_u: Wrap,
@@ -207,7 +208,7 @@ impl Default for Sampler {
 }
 
 /// Wrapping of texture coordinates beyond the edges of an image.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Wrap {
     /// The image repeats.
     Repeat,
@@ -218,7 +219,7 @@ pub enum Wrap {
 }
 
 /// A texture filter.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Filter {
     /// The nearest texel.
     Nearest,

@@ -1,9 +1,10 @@
 //! What is drawn behind a scene.
 
 use glam::Vec3;
+use serde::{Deserialize, Serialize};
 
 /// What is drawn behind a scene in colour images.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub enum Background {
     /// The sky of the pipeline; without one, its colour.
     #[default]

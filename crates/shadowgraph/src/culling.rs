@@ -2,10 +2,11 @@
 
 use std::fmt;
 
+use serde::{Deserialize, Serialize};
 use shadowgraph_scene::gpu::GpuScene;
 
 /// What finds the instances that views and shadow maps show. Images are the same.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Culling {
     /// The GPU in scenes with at least 4,096 instances, of which at least four share a draw on average; else the CPU.
     #[default]

@@ -142,6 +142,9 @@ pub enum Error {
     /// The lit passes cannot be built.
     #[error(transparent)]
     Lighting(#[from] shadowgraph_lighting::Error),
+    /// A recorded frame is invalid.
+    #[error("{0}")]
+    Recorded(String),
     /// A shader does not compose.
     #[error(transparent)]
     Shader(#[from] shadowgraph_shaders::Error),

@@ -28,6 +28,7 @@ use crate::gpu::Gpu;
 use crate::options::aov::Aov;
 use crate::pipelines::instance::PipelineInstance;
 use crate::pipelines::pipeline::Pipeline;
+use crate::recording::{Recorder, RendererState};
 use crate::render_config::RenderConfig;
 use crate::render_view::RenderView;
 use crate::scene_rays::UploadedRays;
@@ -54,6 +55,7 @@ pub struct Renderer {
     previous_cameras: PreviousCameras,
     /// The number of frames that were drawn or recorded.
     frames: u32,
+    recorder: Option<Recorder>,
     /// Guarded by a mutex because a frame borrows the renderer while the graph compiles and executes it.
     graph: Mutex<Graph>,
 }
@@ -80,7 +82,17 @@ impl Renderer {
         aov: Aov,
         config: impl Into<RenderConfig>,
     ) -> Result<Self, Error> {
-        let mut config = config.into();
+        Self::at_origin(gpu, scene, origin_near(eye.position_world()), aov, config.into())
+    }
+
+    /// Creates a renderer like [`with_config`](Self::with_config), with an origin of GPU space.
+    pub(crate) fn at_origin(
+        gpu: &Gpu,
+        scene: Scene,
+        origin_world: DVec3,
+        aov: Aov,
+        mut config: RenderConfig,
+    ) -> Result<Self, Error> {
         if !matches!(config.samples, 1 | 4) {
             return Err(Error::SampleCount { samples: config.samples });
         }
@@ -88,7 +100,7 @@ impl Renderer {
             // Data must not be averaged.
             config.samples = 1;
         }
-        Self::create(gpu, scene, origin_near(eye.position_world()), aov, config)
+        Self::create(gpu, scene, origin_world, aov, config)
     }
 
     /// Recreates the renderer on another device after [`DeviceLost`]. Scene and configuration stay; what passes kept from frame to
@@ -121,8 +133,9 @@ impl Renderer {
     pub fn recreate_on(&mut self, gpu: &Gpu) -> Result<(), Error> {
         let (scene, origin_world) = (self.scene.clone(), self.casters.scene.origin_world());
         let created = Self::create(gpu, scene, origin_world, self.aov.clone(), self.config.clone())?;
-        let overlay = self.overlay();
+        let (overlay, recorder) = (self.overlay(), self.recorder.take());
         *self = Self { shadow_camera: self.shadow_camera.take(), ..created };
+        self.set_recorder(recorder);
         self.set_overlay(gpu, overlay)
     }
 
@@ -170,6 +183,7 @@ impl Renderer {
             shadow_camera: None,
             previous_cameras: PreviousCameras::default(),
             frames: 0,
+            recorder: None,
             graph: Mutex::default(),
         };
         renderer.follow_scene();
@@ -224,8 +238,44 @@ impl Renderer {
         (self.scene, self.lit_output) = (scene, lit_output);
         (self.previous_cameras, self.graph) = (PreviousCameras::default(), Mutex::default());
         self.frames = 0;
+        self.recorder.iter_mut().for_each(|recorder| recorder.end("the scene was replaced"));
         self.follow_scene();
         Ok(())
+    }
+
+    /// Records all frames from now on, or none. The renderer must not have drawn a frame yet, and be one of the scene of the recorder with any
+    /// edits of what recordings have; else the recording ends at once, as [`Recorder::ended_because`] says. A recorder that was
+    /// [taken](Self::take_recorder) continues with a second renderer, such as one of another technique.
+    pub fn set_recorder(&mut self, mut recorder: Option<Recorder>) {
+        if let Some(recorder) = &mut recorder {
+            if self.frames > 0 {
+                recorder.end("the renderer has drawn frames before");
+            }
+            recorder.begin_renderer(&self.state());
+        }
+        self.recorder = recorder;
+    }
+
+    /// Returns what recorders read.
+    fn state(&self) -> RendererState<'_> {
+        RendererState {
+            scene: &self.scene,
+            config: &self.config,
+            aov: &self.aov,
+            origin_world: self.casters.scene.origin_world(),
+            shadow_camera: self.shadow_camera.as_ref(),
+            overlay: self.overlay(),
+        }
+    }
+
+    /// Returns the recorder.
+    pub fn recorder(&self) -> Option<&Recorder> {
+        self.recorder.as_ref()
+    }
+
+    /// Stops recording, and returns the recorder.
+    pub fn take_recorder(&mut self) -> Option<Recorder> {
+        self.recorder.take()
     }
 
     /// Fits shadows to this camera instead of the view's, so that they can be seen from outside; `None` for the view's camera.
@@ -258,6 +308,16 @@ impl Renderer {
     /// Returns the pipeline.
     pub fn pipeline(&self) -> &Pipeline {
         &self.config.pipeline
+    }
+
+    /// Returns the configuration.
+    pub fn config(&self) -> &RenderConfig {
+        &self.config
+    }
+
+    /// Returns the number of frames that were drawn or recorded.
+    pub(crate) fn frame_number(&self) -> u32 {
+        self.frames
     }
 
     /// Returns the number of samples per pixel.
@@ -359,8 +419,9 @@ impl Renderer {
         let changes = self.scene.take_changes();
         let origin_world = origin_near(options.camera.position_world());
         let followed = self.follow(gpu, &changes, origin_world);
-        if followed.is_err() {
-            self.scene.restore_changes(changes);
+        match &followed {
+            Ok(()) => self.recorder.iter_mut().for_each(|recorder| recorder.follow(&self.scene, &changes)),
+            Err(_) => self.scene.restore_changes(changes),
         }
         self.follow_scene();
         followed
@@ -393,8 +454,14 @@ impl Renderer {
         if is_still { update() } else { gpu.checked(update) }
     }
 
-    /// Moves on to the next frame's noise.
-    fn count_frame(&mut self) {
+    /// Ends a frame of some views: records it, if it was drawn, and moves on to the next frame's noise.
+    fn end_frame(&mut self, drawn: bool, views: &[&ViewOptions]) {
+        if let Some(mut recorder) = self.recorder.take() {
+            if drawn {
+                recorder.add_frame(&self.state(), views);
+            }
+            self.recorder = Some(recorder);
+        }
         self.frames = self.frames.wrapping_add(1);
     }
 

@@ -4,6 +4,7 @@ use std::borrow::Cow;
 
 use bytemuck::{Pod, Zeroable, bytes_of};
 use glam::{DVec3, Vec3};
+use serde::{Deserialize, Serialize};
 use shadowgraph_core::{Bind, Buffer, Contents, Format, Frame, Texture};
 use shadowgraph_lighting::ViewBuffers;
 use shadowgraph_scene::{Camera, Projection};
@@ -15,7 +16,7 @@ use crate::error::Error;
 const WIDTH_PX: f32 = 1.5;
 
 /// What lines show of shadow maps.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum ShadowLines {
     /// The slices of the camera's view that cascades are fitted to, in pale colours, and the boxes and pyramids of all tiles.
     Frusta,

@@ -10,6 +10,7 @@ mod equal;
 mod images;
 mod maps;
 mod pages;
+mod recordings;
 mod scene_counts;
 mod walking;
 mod worlds;

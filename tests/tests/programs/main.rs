@@ -12,5 +12,6 @@ mod measure;
 mod nodes;
 mod pages;
 mod pixel;
+mod recordings;
 #[cfg(target_os = "linux")]
 mod view;

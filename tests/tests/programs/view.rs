@@ -38,7 +38,10 @@ const F3: u32 = 0xffc0;
 #[test]
 fn the_window_shows_the_scene_flies_swaps_techniques_and_opens_the_graph() {
     let Some(display) = Display::open() else { return };
-    let mut view = View::start(&display, &["--animation", "none"]);
+    let dir = tempfile::tempdir().unwrap();
+    let recording = dir.path().join("view.frames");
+    let recording = recording.to_str().unwrap();
+    let mut view = View::start(&display, &["--animation", "none", "--record", recording]);
     let empty = Screenshot::new(640, 360);
     view.until("the scene", |view| lit(&view.screenshot()));
     let first = view.keep("1 scene");
@@ -84,10 +87,23 @@ fn the_window_shows_the_scene_flies_swaps_techniques_and_opens_the_graph() {
     view.x.map_window(view.window).unwrap();
     view.x.flush().unwrap();
     view.wait_for_change(&empty);
-    view.keep("6 back");
+    let back = view.keep("6 back");
 
     let (status, errors) = view.close();
     assert!(status.success() && !errors.contains("panicked"), "{status}: {errors}");
+
+    // Another process draws the last of the recorded frames again, after all others.
+    let image = dir.path().join("last.png");
+    let mut replay = Command::new(program().unwrap());
+    replay.args(["render", "--adapter", "cpu", "--replay", recording, "-o", image.to_str().unwrap()]);
+    let output = replay.output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let last = image::open(&image).unwrap().to_rgb8();
+    let shown = image::imageops::crop_imm(&back, 0, 0, last.width(), last.height()).to_image();
+    // The window filters the image.
+    assert!(changed(&last, &shown) < 0.03, "{}", changed(&last, &shown));
+    let earlier = image::imageops::crop_imm(&moved, 0, 0, last.width(), last.height()).to_image();
+    assert!(changed(&last, &earlier) > 0.05);
 }
 
 /// Controls on the first page of the panel, from its left edge.

@@ -57,7 +57,7 @@ pub(crate) struct DrawArgs {
     /// The ground under the scene: auto, a plane that receives shadows where the scene has no floor, in colour images by pipelines with
     /// a sky; none; or a square of a colour, #RRGGBB or R,G,B (linear, each 0 to 1), which is part of the scene and 40 of its radii wide
     #[arg(long, value_name = "auto|none|COLOR", default_value = "auto", allow_hyphen_values = true)]
-    ground: String,
+    pub(crate) ground: String,
     /// The background of colour images: sky, the sky of the pipeline; transparent; or a colour, #RRGGBB or R,G,B (linear, each 0 to 1)
     #[arg(long, value_name = "sky|transparent|COLOR", default_value = "sky", allow_hyphen_values = true)]
     background: String,
@@ -87,7 +87,7 @@ pub(crate) struct DrawArgs {
     /// The GPU by name; cpu forces a software adapter. Default: auto; without this option, bench measures
     /// only the CPU where it need not draw
     #[arg(long, value_name = "auto|NAME|cpu")]
-    adapter: Option<String>,
+    pub(crate) adapter: Option<String>,
     /// A directory of WGSL files, such as shaders/wgsl of a checkout, that replace the built-in files of the same names. The window
     /// reloads them when they are saved
     #[arg(long, value_name = "DIR")]

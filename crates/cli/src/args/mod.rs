@@ -60,6 +60,46 @@ pub(crate) struct FramesArgs {
     pub(crate) fps: f64,
 }
 
+/// What is recorded.
+#[derive(Clone, Debug, Args)]
+pub(crate) struct RecordArgs {
+    /// Write what the frames are drawn from into a file, from which render --replay draws them again
+    #[arg(id = "record", long = "record", value_name = "FILE")]
+    pub(crate) file: Option<PathBuf>,
+    /// With --record: the largest size of the file in MiB, at which recording ends
+    #[arg(
+        id = "record_mib",
+        long = "record-mib",
+        value_name = "MIB",
+        requires = "record",
+        default_value_t = 256
+    )]
+    #[arg(allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(1..=1024))]
+    pub(crate) mib: u32,
+}
+
+impl RecordArgs {
+    /// Returns the largest size in MiB, if frames are recorded.
+    pub(crate) fn limit_mib(&self) -> Option<u32> {
+        self.file.is_some().then_some(self.mib)
+    }
+}
+
+/// The recorded frame that is drawn again.
+#[derive(Clone, Debug, Args)]
+pub(crate) struct ReplayArgs {
+    /// Draw frames again that --record has recorded, to the bit on the same adapter: the last one, or all if the output has a number
+    #[arg(id = "replay", long = "replay", value_name = "FILE", conflicts_with_all = [
+        "scene", "procedural", "variant", "pipeline", "set", "technique", "samples", "settings", "tracks", "size", "camera", "sun", "ground",
+        "background", "culling", "time", "animation", "shadow_distance", "aov", "overlay", "shadow_camera", "timings", "count", "fps",
+        "record", "record_mib",
+    ])]
+    pub(crate) file: Option<PathBuf>,
+    /// With --replay: the number of the frame, from 0
+    #[arg(long, value_name = "N", requires = "replay", allow_negative_numbers = true)]
+    pub(crate) frame: Option<u32>,
+}
+
 /// `shadowgraph render`
 #[derive(Debug, Args)]
 pub(crate) struct RenderArgs {
@@ -67,6 +107,10 @@ pub(crate) struct RenderArgs {
     pub(crate) draw: DrawArgs,
     #[command(flatten)]
     pub(crate) frames: FramesArgs,
+    #[command(flatten)]
+    pub(crate) record: RecordArgs,
+    #[command(flatten)]
+    pub(crate) replay: ReplayArgs,
     /// The PNG file; missing directories are created. %04d stands for the number of the frame, from 0, with at least 4 digits: all
     /// frames are written
     #[arg(short, long, value_name = "FILE", default_value = "out/render.png")]
@@ -149,6 +193,8 @@ impl DumpArgs {
 pub(crate) struct ViewArgs {
     #[command(flatten)]
     pub(crate) draw: DrawArgs,
+    #[command(flatten)]
+    pub(crate) record: RecordArgs,
     /// GPU time budget of the shadow passes in milliseconds; while they exceed it, shadow distance and resolution are lowered
     #[arg(long, value_name = "MS", allow_negative_numbers = true)]
     pub(crate) budget_ms: Option<f64>,

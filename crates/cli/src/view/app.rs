@@ -12,6 +12,7 @@ use super::panel::Action;
 use super::screen::Screen;
 use super::stage::Stage;
 use crate::failure::Failure;
+use crate::recording;
 use shadowgraph::options::AdapterChoice;
 use shadowgraph::output::write_text;
 use shadowgraph::wgpu;
@@ -29,6 +30,8 @@ pub(super) struct App {
     screen: Option<Screen>,
     drawn: Instant,
     failure: Option<Failure>,
+    /// The file of `--record`.
+    record: Option<PathBuf>,
 }
 
 impl App {
@@ -37,12 +40,17 @@ impl App {
         adapter: AdapterChoice,
         size_px: [u32; 2],
         stage: Stage,
+        record: Option<PathBuf>,
     ) -> Self {
-        Self { instance, adapter, size_px, stage, screen: None, drawn: Instant::now(), failure: None }
+        let drawn = Instant::now();
+        Self { instance, adapter, size_px, stage, screen: None, drawn, failure: None, record }
     }
 
     /// Returns the result of the program after the window is closed.
-    pub(super) fn end(self) -> Result<(), Failure> {
+    pub(super) fn end(mut self) -> Result<(), Failure> {
+        if let (Some(file), Some(recorder)) = (&self.record, self.stage.take_recorder()) {
+            recording::write(file, &recorder)?;
+        }
         self.failure.map_or(Ok(()), Err)
     }
 

@@ -18,13 +18,13 @@ use stage::Stage;
 use winit::event_loop::EventLoop;
 
 use super::args::ViewArgs;
-use super::commands::{input, view_options};
+use super::commands::{recorded_input, view_options};
 use super::failure::Failure;
 use shadowgraph::{Registry, wgpu};
 
 /// `shadowgraph view`
 pub(crate) fn view(args: &ViewArgs, registry: &Registry) -> Result<(), Failure> {
-    let input = input(&args.draw, registry)?;
+    let input = recorded_input(&args.draw, registry, args.record.limit_mib())?;
     let event_loop = EventLoop::new().map_err(|error| no_display(&error))?;
     let display = Box::new(event_loop.owned_display_handle());
     let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_with_display_handle(display));
@@ -32,7 +32,7 @@ pub(crate) fn view(args: &ViewArgs, registry: &Registry) -> Result<(), Failure> 
     let view = view_options(&input)?;
     let size_px = view.size_px;
     let stage = Stage::new(input, view, registry.clone(), args)?;
-    let mut app = App::new(instance, adapter, size_px, stage);
+    let mut app = App::new(instance, adapter, size_px, stage, args.record.file.clone());
     run(event_loop, &mut app)?;
     app.end()
 }

@@ -10,8 +10,10 @@ use super::sun::Sun;
 use crate::args::{DrawArgs, ViewArgs};
 use crate::commands::{Input, load, shadow_camera};
 use crate::failure::Failure;
+use crate::recording;
 use shadowgraph::core::{Format, Plan, TimeHistory, Timer};
 use shadowgraph::options::{Aov, GroundChoice, OptionError, SettingsFile, ShadowDistance, SunChoice};
+use shadowgraph::recording::Recorder;
 use shadowgraph::scene::{AnimationSelection, Camera, Scene};
 use shadowgraph::shadows::{BudgetConfig, QualityController, SettingTracks, ShadowSettings, Technique};
 use shadowgraph::{
@@ -64,6 +66,9 @@ pub(super) struct Stage {
     watched_pipeline: Watched,
     watched_shaders: Watched,
     renderer: Option<Renderer>,
+    /// Records frames, if they are, while no renderer does.
+    recorder: Option<Recorder>,
+    record_mib: Option<u32>,
     /// The last requested renderer and the result, so that a failed one is not tried again.
     created: Option<(RendererKey, Result<(), String>)>,
 }
@@ -115,6 +120,8 @@ impl Stage {
             watched_pipeline: Watched::new(args.draw.pipeline_file().map(PathBuf::from)),
             watched_shaders: Watched::new(shaders),
             renderer: None,
+            recorder: input.recorder,
+            record_mib: args.record.limit_mib(),
             created: None,
         })
     }
@@ -127,6 +134,8 @@ impl Stage {
             Err(failure) => return self.file_error = Some(failure.message),
         };
         self.ground.place(&scene, true).add_to(&mut scene);
+        self.recorder =
+            self.record_mib.map(|limit_mib| recording::opened(file, &self.draw, &scene, limit_mib));
         let name = file.map_or("the built-in scene".into(), |file| file.display().to_string());
         self.note = SunChoice::default().apply(&mut scene).unwrap_or(name);
         let camera = scene.cameras.first().cloned().unwrap_or_else(|| scene.framing_camera(16.0 / 9.0));
@@ -271,8 +280,15 @@ impl Stage {
         });
         let failed = created.as_ref().err().map(ToString::to_string);
         self.created = Some((key, failed.map_or(Ok(()), Err)));
-        self.renderer = Some(created?);
+        let mut created = created?;
+        created.set_recorder(self.take_recorder());
+        self.renderer = Some(created);
         Ok(())
+    }
+
+    /// Returns what has recorded the frames so far, and stops recording.
+    pub(super) fn take_recorder(&mut self) -> Option<Recorder> {
+        self.recorder.take().or_else(|| self.renderer.as_mut()?.take_recorder())
     }
 
     /// Returns the page of the current frame.

@@ -69,8 +69,7 @@ impl Scene {
         key: MaterialKey,
         edit: impl FnOnce(&mut Material),
     ) -> Result<(), EditError> {
-        let mut material = self.material(key).ok_or(stale("material"))?.clone();
-        self.material_modes.give_own(key, &mut material);
+        let mut material = self.own_material(key).ok_or(stale("material"))?;
         edit(&mut material);
         self.replace_material(key, material).map(drop)
     }
@@ -204,6 +203,22 @@ impl Scene {
         Ok(previous)
     }
 
+    /// Returns a copy of an instance without [shadow modes](Self::set_shadow_modes).
+    #[must_use]
+    pub fn own_instance(&self, key: InstanceKey) -> Option<Instance> {
+        let mut instance = self.instance(key)?.clone();
+        self.object_modes.give_own(key, &mut instance);
+        Some(instance)
+    }
+
+    /// Returns a copy of a material without [shadow modes](Self::set_shadow_modes).
+    #[must_use]
+    pub fn own_material(&self, key: MaterialKey) -> Option<Material> {
+        let mut material = self.material(key)?.clone();
+        self.material_modes.give_own(key, &mut material);
+        Some(material)
+    }
+
     /// Edits an instance, for example its flags, without [shadow modes](Self::set_shadow_modes).
     ///
     /// # Errors
@@ -213,8 +228,7 @@ impl Scene {
         key: InstanceKey,
         edit: impl FnOnce(&mut Instance),
     ) -> Result<(), EditError> {
-        let mut instance = self.instance(key).ok_or(stale("instance"))?.clone();
-        self.object_modes.give_own(key, &mut instance);
+        let mut instance = self.own_instance(key).ok_or(stale("instance"))?;
         edit(&mut instance);
         self.replace_instance(key, instance).map(drop)
     }

@@ -51,6 +51,13 @@ enum Source {
     Script { name: String, build: Box<BuildFn>, screen_shadows: bool },
 }
 
+/// Where a pipeline is from.
+pub(crate) enum PipelineSource<'p> {
+    BuiltIn { name: &'p str, parameters: &'p Parameters },
+    File { name: &'p str, text: &'p str, parameters: &'p Parameters },
+    Script,
+}
+
 impl Pipeline {
     /// Creates a pipeline from a script; `build` creates what it keeps from frame to frame.
     pub fn script(
@@ -96,6 +103,34 @@ impl Pipeline {
         };
         let file = Box::new(PipelineFile::parse(name, text, parameters)?);
         Ok(Self(Arc::new(Source::File { file, built_in: true })))
+    }
+
+    /// Reads the text of a pipeline file like [`load`](Self::load). Errors name `file`.
+    ///
+    /// # Errors
+    /// As `load`.
+    pub fn from_text(
+        file: &str,
+        text: &str,
+        nodes: &Nodes,
+        techniques: &Techniques,
+        parameters: &Parameters,
+    ) -> Result<Self, PipelineError> {
+        let file = Box::new(PipelineFile::read(file, text, nodes, techniques, parameters)?);
+        Ok(Self(Arc::new(Source::File { file, built_in: false })))
+    }
+
+    /// Returns where the pipeline is from.
+    pub(crate) fn source(&self) -> PipelineSource<'_> {
+        match &*self.0 {
+            Source::File { file, built_in: true } => {
+                PipelineSource::BuiltIn { name: &file.name, parameters: &file.parameters }
+            }
+            Source::File { file, .. } => {
+                PipelineSource::File { name: &file.name, text: file.text(), parameters: &file.parameters }
+            }
+            Source::Script { .. } => PipelineSource::Script,
+        }
     }
 
     /// Returns the text of a built-in pipeline's file, a start for your own.

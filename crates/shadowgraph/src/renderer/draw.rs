@@ -88,7 +88,7 @@ impl Renderer {
             let frame = RenderedFrame { image, plan, times, unshadowed, counts, values };
             Ok(Drawn { frame, image: output.image.id(), shadow_buffers: output.shadow_buffers })
         });
-        self.count_frame();
+        self.end_frame(drawn.is_ok(), &[options]);
         drawn
     }
 
@@ -122,7 +122,7 @@ impl Renderer {
             });
             images.collect()
         });
-        self.count_frame();
+        self.end_frame(drawn.is_ok(), &views.iter().collect::<Vec<_>>());
         drawn
     }
 }

@@ -65,7 +65,7 @@ impl Renderer {
         let mut frame = self.graph().frame();
         self.add_into(&mut frame, &view, target)?;
         let executed = execute(frame, self);
-        self.count_frame();
+        self.end_frame(executed.is_ok(), &[&options]);
         executed
     }
 
@@ -98,7 +98,7 @@ impl Renderer {
             frame.node(name, |frame| self.add_into(frame, view, target))?;
         }
         let executed = self.execute(frame, gpu, encoder, None);
-        self.count_frame();
+        self.end_frame(executed.is_ok(), &all.iter().collect::<Vec<_>>());
         executed
     }
 

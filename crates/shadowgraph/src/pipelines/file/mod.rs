@@ -38,9 +38,10 @@ use crate::nodes::registry::Nodes;
 #[derive(Clone)]
 pub(super) struct PipelineFile {
     pub(super) name: String,
+    source: Arc<SourceText>,
     document: Arc<Document>,
     nodes: Nodes,
-    parameters: Parameters,
+    pub(super) parameters: Parameters,
     resolved: Arc<ResolvedPipeline>,
     /// The technique that the file names.
     pub(super) technique: Option<Technique>,
@@ -63,20 +64,35 @@ impl PipelineFile {
             location: name.clone(),
             problem: format!("cannot be read: {error}"),
         })?;
-        let document = Document::parse(&Arc::new(SourceText { name: name.clone(), text }))?;
-        Self::checked(&name, document, nodes, techniques, parameters)
+        Self::read(&name, &text, nodes, techniques, parameters)
     }
 
     /// Parses and checks a built-in file.
     pub(super) fn parse(name: &str, text: &str, parameters: &Parameters) -> Result<Self, PipelineError> {
+        Self::read(name, text, &Nodes::built_in(), &Techniques::built_in(), parameters)
+    }
+
+    /// Parses and checks the text of a file.
+    pub(super) fn read(
+        name: &str,
+        text: &str,
+        nodes: &Nodes,
+        techniques: &Techniques,
+        parameters: &Parameters,
+    ) -> Result<Self, PipelineError> {
         let source = Arc::new(SourceText { name: name.to_owned(), text: text.to_owned() });
         let document = Document::parse(&source)?;
-        Self::checked(name, document, &Nodes::built_in(), &Techniques::built_in(), parameters)
+        Self::checked(&source, document, nodes, techniques, parameters)
+    }
+
+    /// Returns the text.
+    pub(super) fn text(&self) -> &str {
+        &self.source.text
     }
 
     /// Checks the file with its default parameters and with those that are set.
     fn checked(
-        name: &str,
+        source: &Arc<SourceText>,
         document: Document,
         nodes: &Nodes,
         techniques: &Techniques,
@@ -84,19 +100,20 @@ impl PipelineFile {
     ) -> Result<Self, PipelineError> {
         let document = Arc::new(document.with_current_names(nodes));
         document.check_parameters()?;
-        Self::resolved(name, &document, nodes, techniques, &Parameters::default())?;
+        Self::resolved(source, &document, nodes, techniques, &Parameters::default())?;
         // Any error that is left is due to the parameters.
-        Self::resolved(name, &document, nodes, techniques, parameters)
+        Self::resolved(source, &document, nodes, techniques, parameters)
             .map_err(|error| PipelineError { problem: format!("{}{parameters}", error.problem), ..error })
     }
 
     fn resolved(
-        name: &str,
+        source: &Arc<SourceText>,
         document: &Arc<Document>,
         nodes: &Nodes,
         techniques: &Techniques,
         parameters: &Parameters,
     ) -> Result<Self, PipelineError> {
+        let name = &source.name;
         let resolved = document.resolve(name, nodes, &document.parameter_values(name, parameters)?)?;
         let is_shadows = |node: &&ResolvedNode| node.kind.name == Shadows::NAME;
         let shadows = resolved.nodes.iter().find(is_shadows);
@@ -105,7 +122,8 @@ impl PipelineFile {
             shadows.is_some_and(|node| node.settings.toggle(Shadows::SCREEN_SPACE).unwrap_or_default());
         let has_sky = resolved.nodes.iter().any(|node| node.kind.name == Sky::NAME);
         Ok(Self {
-            name: name.to_owned(),
+            name: name.clone(),
+            source: source.clone(),
             document: document.clone(),
             nodes: nodes.clone(),
             parameters: parameters.clone(),

@@ -124,10 +124,7 @@ fn set(name: &str, value: serde_json::Value) -> Parameters {
 }
 
 fn names(text: &str, parameters: &Parameters) -> (Vec<String>, Option<String>) {
-    let source = Arc::new(SourceText { name: "switched".into(), text: text.into() });
-    let document = Document::parse(&source).unwrap();
-    let (nodes, techniques) = (Nodes::built_in(), Techniques::built_in());
-    let file = PipelineFile::checked("switched", document, &nodes, &techniques, parameters).unwrap();
+    let file = PipelineFile::parse("switched", text, parameters).unwrap();
     let nodes = file.resolved.nodes.iter().map(|node| node.name.clone()).collect();
     (nodes, file.technique.map(|technique| technique.name()))
 }

@@ -1,0 +1,70 @@
+//! Recordings of frames: `--record`.
+
+use std::path::{Path, PathBuf};
+
+use serde::Deserialize;
+use serde_json::json;
+
+use super::args::DrawArgs;
+use super::console;
+use super::failure::Failure;
+use shadowgraph::options::PlacedGround;
+use shadowgraph::output::write_text;
+use shadowgraph::recording::Recorder;
+use shadowgraph::scene::Scene;
+
+/// Where the scene of a recording is from.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Source {
+    /// Absolute.
+    pub(crate) file: Option<PathBuf>,
+    pub(crate) variant: Option<String>,
+    /// The name of a procedural scene.
+    pub(crate) procedural: Option<String>,
+    pub(crate) ground: String,
+}
+
+/// Creates the recorder of a scene as it was loaded.
+pub(crate) fn recorder(
+    args: &DrawArgs,
+    scene: &Scene,
+    ground: &PlacedGround,
+    limit_mib: u32,
+) -> Result<Recorder, Failure> {
+    let DrawArgs { scene: file, variant, procedural, ground: choice, .. } = args.clone();
+    let file = file.map(std::path::absolute).transpose()?;
+    let mut scene = scene.clone();
+    ground.add_to(&mut scene);
+    Ok(Source { file, variant, procedural, ground: choice }.recorder(&scene, limit_mib))
+}
+
+/// Creates the recorder of a scene, with its ground, that was opened from a file, or of the built-in one.
+#[cfg(feature = "view")]
+pub(crate) fn opened(file: Option<&Path>, args: &DrawArgs, scene: &Scene, limit_mib: u32) -> Recorder {
+    let file = file.map(|file| std::path::absolute(file).unwrap_or_else(|_| file.to_owned()));
+    let ground = args.ground.clone();
+    Source { file, variant: None, procedural: None, ground }.recorder(scene, limit_mib)
+}
+
+impl Source {
+    fn recorder(self, scene: &Scene, limit_mib: u32) -> Recorder {
+        let Self { file, variant, procedural, ground } = self;
+        let file = file.map(|file| file.to_string_lossy().into_owned());
+        let source = json!({ "file": file, "variant": variant, "procedural": procedural, "ground": ground });
+        Recorder::new(scene, source, limit_mib)
+    }
+}
+
+/// Writes the file of a recorder.
+pub(crate) fn write(file: &Path, recorder: &Recorder) -> Result<(), Failure> {
+    let count = recorder.frame_count();
+    if let Some(reason) = recorder.ended_because() {
+        console::warning(&format!("the recording ends before frame {count}: {reason}"));
+    }
+    if count == 0 {
+        return Ok(());
+    }
+    write_text(file, recorder.text())?;
+    console::print(&format!("wrote {}: {count} frames\n", file.display()))
+}

@@ -1,0 +1,83 @@
+//! `shadowgraph render --replay`.
+
+use std::path::Path;
+
+use serde::Deserialize;
+
+use super::args::RenderArgs;
+use super::commands::{check_output, file_pixels, load, use_shaders};
+use super::console;
+use super::failure::Failure;
+use super::frame_files::FrameFiles;
+use super::progress::Progress;
+use super::recording::Source;
+use super::values::{self, Findings};
+use shadowgraph::options::{AdapterChoice, GroundChoice, OptionError};
+use shadowgraph::output::write_png;
+use shadowgraph::recording::{Recording, RecordingError};
+use shadowgraph::scene::Scene;
+use shadowgraph::{Gpu, Registry, Replay};
+use shadowgraph_samples::named_scene;
+
+/// `shadowgraph render --replay`
+pub(crate) fn replay(file: &Path, args: &RenderArgs, registry: &Registry) -> Result<(), Failure> {
+    check_output(&args.output)?;
+    let files = FrameFiles::parse(&args.output)?;
+    use_shaders(&args.draw)?;
+    let ranges = args.check_values.as_deref();
+    let check_values = ranges.map(values::parse).transpose()?;
+    let adapter: AdapterChoice = args.draw.adapter.as_deref().map_or(Ok(Default::default()), str::parse)?;
+    let recording = Recording::load(file).map_err(|error| OptionError::new("replay", error.to_string()))?;
+    let scene = scene(&recording).map_err(|failure| Failure {
+        message: format!("--replay: {}: {}", file.display(), failure.message),
+        ..failure
+    })?;
+    let gpu = Gpu::open(&adapter).map_err(Failure::no_device)?;
+    let count = recording.frame_count();
+    let frames = match (args.replay.frame, &files) {
+        (Some(frame), _) => frame as usize..frame as usize + 1,
+        (None, FrameFiles::Each { .. }) => 0..count,
+        (None, FrameFiles::Last(_)) => count - 1..count,
+    };
+    let drawing = Progress::if_slow("drawing");
+    let failed = |error: RecordingError| OptionError::new("replay", error.to_string());
+    let mut replay = Replay::new(&recording, scene, registry).map_err(failed)?;
+    let mut findings = Findings::default();
+    let mut size_px = [0; 2];
+    for number in frames.clone() {
+        let observe =
+            &mut |at: usize| drawing.set(&format!("frame {at} of {count}"), at as f32 / count as f32);
+        let (renderer, views) = replay.seek_observed(&gpu, number, observe).map_err(failed)?;
+        let [view] = views else {
+            let reason = format!("frame {number} has {} views; the program draws one", views.len());
+            return Err(OptionError::new("replay", reason).into());
+        };
+        renderer.graph().check_values(check_values.clone());
+        let drawn = renderer.draw(&gpu, view)?;
+        ranges.map_or(Ok(()), |ranges| values::check_names(ranges, &drawn))?;
+        findings.add(number as u32, &drawn);
+        size_px = view.size_px;
+        if let Some(file) = files.file(number as u32, frames.end as u32) {
+            let (pixels, bytes) = file_pixels(renderer.aov(), renderer.config().background, &drawn.image);
+            write_png(&file, size_px[0], size_px[1], pixels, &bytes)?;
+        }
+    }
+    let [width, height] = size_px;
+    let (file, adapter) = (args.output.display(), &gpu.adapter.name);
+    let drawn = frames.len();
+    let sequence = if drawn > 1 { format!("{drawn} frames, ") } else { format!("frame {}, ", frames.start) };
+    console::print(&format!("wrote {file}: {sequence}{width}x{height}, rendered by {adapter}\n"))?;
+    if ranges.is_some() { findings.finish(drawn as u32) } else { Ok(()) }
+}
+
+/// Loads the scene of a recording.
+fn scene(recording: &Recording) -> Result<Scene, Failure> {
+    let Source { file, variant, procedural, ground } = Source::deserialize(recording.source())?;
+    let mut scene = match (&file, &procedural) {
+        (Some(file), _) => load(file, variant.as_deref())?,
+        (None, name) => named_scene(name.as_deref().unwrap_or("demo"))?,
+    };
+    let ground: GroundChoice = ground.parse()?;
+    ground.place(&scene, true).add_to(&mut scene);
+    Ok(scene)
+}
