@@ -46,7 +46,7 @@ use crate::view_options::ViewOptions;
 /// ```
 pub struct Replay<'r> {
     recording: &'r Recording,
-    registry: &'r Registry,
+    registry: Registry,
     keys: SceneKeys,
     /// The scene as the program loads it.
     scene: Scene,
@@ -70,10 +70,10 @@ impl<'r> Replay<'r> {
     pub fn new(
         recording: &'r Recording,
         scene: Scene,
-        registry: &'r Registry,
+        registry: &Registry,
     ) -> Result<Self, RecordingError> {
         recording.header.scene.check(&scene)?;
-        Ok(Self { recording, registry, keys: SceneKeys::new(&scene), scene, stage: None })
+        Ok(Self { recording, registry: registry.clone(), keys: SceneKeys::new(&scene), scene, stage: None })
     }
 
     /// Draws all frames before a frame, from 0, and returns the renderer and the views of that frame, for the caller to draw or to inspect: once,
@@ -182,7 +182,7 @@ impl<'r> Replay<'r> {
 
     fn pipeline(&self, entry: &PipelineEntry) -> Result<Pipeline, Error> {
         let PipelineEntry { name, text, parameters } = entry;
-        let Registry { techniques, nodes } = self.registry;
+        let Registry { techniques, nodes } = &self.registry;
         let parameters = Parameters(parameters.clone());
         Ok(match text {
             None => Pipeline::built_in(name, &parameters)?,
