@@ -21,6 +21,7 @@ mod progress;
 mod recording;
 mod replay;
 mod report;
+mod stop;
 mod values;
 #[cfg(feature = "view")]
 mod view;
@@ -53,9 +54,10 @@ pub fn run(registry: &Registry) -> ExitCode {
     runtime_dir();
     let done = match Cli::try_parse() {
         Ok(Cli { command: None }) => console::print(&Cli::command().render_help().to_string()),
-        Ok(Cli { command: Some(Command::Render(args)) }) => match &args.replay.file {
-            Some(file) => replay::replay(file, &args, registry),
-            None => commands::render(&args, registry),
+        Ok(Cli { command: Some(Command::Render(args)) }) => match (&args.replay.file, &args.stop_at) {
+            (Some(file), _) => replay::replay(file, &args, registry),
+            (None, Some((texture, version))) => stop::stop_at(texture, *version, &args, registry),
+            (None, None) => commands::render(&args, registry),
         },
         Ok(Cli { command: Some(Command::Dump(args)) }) => dump::dump(&args, registry),
         Ok(Cli { command: Some(Command::Explain(args)) }) => dump::explain(&args, registry),

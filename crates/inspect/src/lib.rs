@@ -25,6 +25,7 @@ mod explain;
 mod html;
 mod pixel;
 mod trace;
+mod version_image;
 
 pub use contents::{ContentsDiff, ContentsDifference, ContentsRecorder, LargestDifference, Tolerance};
 pub use diff::{Diff, Difference, Dump, Subject, diff};
@@ -35,6 +36,7 @@ pub use pixel::{
     PixelHistory, PixelPass, PixelPlace, PixelRead, PixelRecorder, PixelTexel, PixelWrite, WriteEffect,
 };
 pub use trace::trace_json;
+pub use version_image::VersionImage;
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

@@ -74,6 +74,16 @@ pub enum Error {
         /// The closest name, or all.
         hint: String,
     },
+    /// A version of a texture that cannot be shown.
+    #[error("`{name}@{version}`: {reason}")]
+    NoImage {
+        /// The texture's name.
+        name: String,
+        /// The version.
+        version: u32,
+        /// The problem, and what is expected.
+        reason: String,
+    },
     /// A texture of a format that cannot be displayed.
     #[error(
         "texture `{name}` ({format:?}): integer textures cannot be displayed; the HTML page of the frame shows them"

@@ -67,11 +67,7 @@ impl<'r> Replay<'r> {
     ///
     /// # Errors
     /// [`RecordingError::OtherScene`].
-    pub fn new(
-        recording: &'r Recording,
-        scene: Scene,
-        registry: &Registry,
-    ) -> Result<Self, RecordingError> {
+    pub fn new(recording: &'r Recording, scene: Scene, registry: &Registry) -> Result<Self, RecordingError> {
         recording.header.scene.check(&scene)?;
         Ok(Self { recording, registry: registry.clone(), keys: SceneKeys::new(&scene), scene, stage: None })
     }

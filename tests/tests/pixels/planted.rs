@@ -1,6 +1,8 @@
 //! The tools for debugging name the pass and the pixel of a defect. `SHADOWGRAPH_SOAK` is the number of frames without a defect, a tenth of
 //! them is drawn with one, `SHADOWGRAPH_SOAK_SEED` the seed.
 
+use std::ops::ControlFlow;
+
 use shadowgraph::Gpu;
 use shadowgraph::core::{Graph, ValueCheck, ValueReport};
 use shadowgraph::inspect::{ContentsRecorder, Dump, Tolerance};
@@ -24,7 +26,10 @@ fn record(gpu: &Gpu, shaders: &Shaders, frame: &RandomFrame, planted: Option<Pla
     declared.export_texture(&output);
     let mut recorder = ContentsRecorder::new(64 << 20);
     let compiled = graph.compile(declared).unwrap();
-    let mut add = |contained| recorder.add(&contained);
+    let mut add = |contained| {
+        recorder.add(&contained);
+        ControlFlow::Continue(())
+    };
     let executed = compiled.execute_visited(&mut graph, &gpu.device, &gpu.queue, &mut add).unwrap();
     let dump = Dump::from_json(&recorder.dump(executed.plan()).unwrap()).unwrap();
     dump.with_values(recorder.into_values()).unwrap()

@@ -68,3 +68,28 @@ fn values_outside_of_a_range_are_reported_and_other_names_refused() {
         "{err}"
     );
 }
+
+#[test]
+fn a_version_of_a_texture_is_written_as_an_image() {
+    if let Err(reason) = Gpu::open(&AdapterChoice::Auto) {
+        return shadowgraph_tests::skip("check_values", &reason.to_string());
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let image = folder.path().join("depth.png");
+    let stop_at = |version: &str| {
+        let mut command = Command::new(shadowgraph_tests::program().unwrap());
+        command.args(["render", "--scene", "cornell", "--size", "96x54", "--stop-at", version, "-o"]);
+        let output = command.arg(&image).output().unwrap();
+        let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+        (output.status.success(), text(&output.stdout), text(&output.stderr))
+    };
+    let (success, _, err) = stop_at("depth@2");
+    assert!(!success && err == "error: --stop-at: `depth@2`: expected a version from 1 to 1\n", "{err}");
+    assert!(!image.exists());
+    let (success, out, err) = stop_at("depth@1");
+    assert!(success && out.contains("written by geometry/depth prepass, black 0, white 0."), "{out}{err}");
+    let image = image::open(&image).unwrap().to_rgb8();
+    assert_eq!(image.dimensions(), (96, 54));
+    let range = |end: fn(u8, u8) -> u8| image.pixels().map(|pixel| pixel.0[0]).reduce(end).unwrap();
+    assert!(range(u8::min) < 20 && range(u8::max) == 255);
+}

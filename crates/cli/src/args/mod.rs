@@ -91,7 +91,7 @@ pub(crate) struct ReplayArgs {
     /// Draw frames again that --record has recorded, to the bit on the same adapter: the last one, or all if the output has a number
     #[arg(id = "replay", long = "replay", value_name = "FILE", conflicts_with_all = [
         "scene", "procedural", "variant", "pipeline", "set", "technique", "samples", "settings", "tracks", "size", "camera", "sun", "ground",
-        "background", "culling", "time", "animation", "shadow_distance", "aov", "overlay", "shadow_camera", "timings", "count", "fps",
+        "background", "culling", "time", "animation", "shadow_distance", "aov", "overlay", "shadow_camera", "timings", "count", "fps", "stop_at",
         "record", "record_mib",
     ])]
     pub(crate) file: Option<PathBuf>,
@@ -119,6 +119,11 @@ pub(crate) struct RenderArgs {
     /// there are any. The first pass that wrote one is named, with the pixel and what the pass read there
     #[arg(long, value_name = "TEXTURE=LOW..HIGH,...", num_args = 0..=1, require_equals = true, default_missing_value = "")]
     pub(crate) check_values: Option<String>,
+    /// Draw the last frame only until this version of a texture of the graph is written, and output what its pass has written: depth and integers
+    /// stretched to their range, NaN and infinity in magenta
+    #[arg(long, value_name = "TEXTURE@VERSION", conflicts_with_all = ["check_values", "record", "replay", "aov", "timings"])]
+    #[arg(value_parser = stop_at)]
+    pub(crate) stop_at: Option<(String, u32)>,
 }
 
 /// `shadowgraph dump`
@@ -361,6 +366,13 @@ pub(crate) enum Format {
     Html,
     /// Trace of pass times for chrome://tracing or ui.perfetto.dev
     Trace,
+}
+
+/// Parses a version of a texture.
+fn stop_at(text: &str) -> Result<(String, u32), String> {
+    let parsed =
+        text.rsplit_once('@').and_then(|(name, version)| Some((name.to_owned(), version.parse().ok()?)));
+    parsed.ok_or_else(|| "expected TEXTURE@VERSION, such as lit@1".into())
 }
 
 /// Parses the place of a pixel.

@@ -13,18 +13,21 @@ use crate::error::Error;
 use crate::graph::Graph;
 use crate::handle::{PassId, ResourceId};
 use crate::subresource::{Aspect, Rect, Subresource};
+use std::ops::ControlFlow;
 use std::sync::Arc;
 use wgpu_types::TextureUsages;
 
 impl Compiled<'_> {
     /// Records, submits and waits for the frame pass by pass, and calls `visit` with all that each pass has written, and first with what
-    /// imports and histories contain that passes read. Memory is needed for the contents of one pass at a time.
+    /// imports and histories contain that passes read. Memory is needed for the contents of one pass at a time. Where `visit` breaks, the passes
+    /// that follow do not run.
     ///
     /// It draws the same as [`execute`](Self::execute), like a [capture](Self::execute_captured). Textures with several samples and
     /// 24 bit depth cannot be copied.
     ///
     /// ```
     /// use shadowgraph_core::{Contents, Format, Graph, TextureDesc};
+    /// use std::ops::ControlFlow;
     /// # use shadowgraph_core::wgpu;
     /// # let (device, queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
     /// let mut graph = Graph::new();
@@ -35,6 +38,7 @@ impl Compiled<'_> {
     /// let mut sizes = Vec::new();
     /// graph.compile(frame)?.execute_visited(&mut graph, &device, &queue, &mut |contained| {
     ///     sizes.extend(contained.bytes.map(|bytes| bytes.len()));
+    ///     ControlFlow::Continue(())
     /// })?;
     /// assert_eq!(sizes, [64 * 64 * 4]);
     /// # Ok::<(), shadowgraph_core::Error>(())
@@ -47,7 +51,7 @@ impl Compiled<'_> {
         graph: &mut Graph,
         device: &wgpu::Device,
         queue: &wgpu::Queue,
-        visit: &mut dyn FnMut(Contained),
+        visit: &mut dyn FnMut(Contained) -> ControlFlow<()>,
     ) -> Result<Executed, Error> {
         record(self, graph, device, queue, visit).map_err(|error| graph.device.classify_error(device, error))
     }
@@ -58,7 +62,7 @@ fn record(
     graph: &mut Graph,
     device: &wgpu::Device,
     queue: &wgpu::Queue,
-    visit: &mut dyn FnMut(Contained),
+    visit: &mut dyn FnMut(Contained) -> ControlFlow<()>,
 ) -> Result<Executed, Error> {
     let plan = compiled.plan.clone();
     compiled.plan = Arc::new(keeping(&plan, TextureUsages::COPY_SRC));
@@ -68,16 +72,21 @@ fn record(
     let mut bodies = std::mem::take(&mut compiled.frame.work.bodies);
     let prepared = prepare(&compiled, pool, device, &mut first, Some(&last))?;
     let recording = prepared.recording(&compiled, pool, device, None);
-    let mut show = |encoder: wgpu::CommandEncoder, pending: Vec<Pending>| -> Result<(), Error> {
+    let mut show = |encoder: wgpu::CommandEncoder, pending: Vec<Pending>| -> Result<ControlFlow<()>, Error> {
         queue.submit([encoder.finish()]);
-        pending.into_iter().try_for_each(|pending| {
-            visit(pending.wait(device)?);
-            Ok(())
-        })
+        for pending in pending {
+            if visit(pending.wait(device)?).is_break() {
+                return Ok(ControlFlow::Break(()));
+            }
+        }
+        Ok(ControlFlow::Continue(()))
     };
     let initial = initial(&recording, &mut first);
-    show(first, initial)?;
+    let mut flow = show(first, initial)?;
     for (index, step) in compiled.plan.steps().enumerate() {
+        if flow.is_break() {
+            break;
+        }
         let mut encoder = encoder();
         recording.steps(index..index + 1, &mut encoder, Bodies::OfFrame(&mut bodies))?;
         let written = step.passes.iter().flat_map(|&pass| {
@@ -91,7 +100,7 @@ fn record(
             copies(&recording, (pass, access.resource, version), part, &mut encoder)
         });
         let pending = pending.collect();
-        show(encoder, pending)?;
+        flow = show(encoder, pending)?;
     }
     let read_backs = recording.read_backs(&compiled.frame.work.read_backs, &mut last)?;
     compiled.frame.work.bodies = bodies;

@@ -3,7 +3,12 @@
 mod above;
 pub mod lights;
 
-use shadowgraph_core::{Buffer, FrameCapture, PendingCapture, TextureSnapshot, Timer};
+use std::ops::ControlFlow;
+
+use shadowgraph_core::{
+    Buffer, Contained, FrameCapture, PendingCapture, Plan, ResourceDesc, ResourceId, TextureDesc,
+    TextureSnapshot, Timer, did_you_mean,
+};
 use shadowgraph_scene::Light;
 use shadowgraph_shadows::{ShadowLight, ShadowView};
 
@@ -75,7 +80,10 @@ impl Renderer {
         recorder: &mut ContentsRecorder,
     ) -> Result<RenderedFrame, crate::Error> {
         let Drawn { frame, .. } = self.draw_with(gpu, options, |compiled, graph| {
-            let mut add = |contained| recorder.add(&contained);
+            let mut add = |contained| {
+                recorder.add(&contained);
+                ControlFlow::Continue(())
+            };
             Ok(compiled.execute_visited(graph, &gpu.device, &gpu.queue, &mut add)?)
         })?;
         Ok(frame)
@@ -95,11 +103,43 @@ impl Renderer {
         let mut recorder = PixelRecorder::new(PixelPlace { pixel, size_px: options.size_px });
         let Drawn { frame, image, .. } = self.draw_with(gpu, options, |compiled, graph| {
             let plan = compiled.shared_plan();
-            let mut add = |contained| recorder.add(&plan, &contained);
+            let mut add = |contained| {
+                recorder.add(&plan, &contained);
+                ControlFlow::Continue(())
+            };
             Ok(compiled.execute_visited(graph, &gpu.device, &gpu.queue, &mut add)?)
         })?;
         let history = recorder.history(&frame.plan, image);
         Ok((frame, history))
+    }
+
+    /// Draws a view until a version of a texture is written, by name or path, and returns it as an image. The passes after that do not run, so
+    /// the next frame begins with incomplete histories.
+    ///
+    /// # Errors
+    /// As [`draw`](Self::draw); for a texture or a version that the frame does not write; for texels that cannot be shown.
+    pub fn stop_at(
+        &mut self,
+        gpu: &Gpu,
+        options: &ViewOptions,
+        texture: &str,
+        version: u32,
+    ) -> Result<VersionImage, crate::Error> {
+        let mut found = None;
+        self.draw_with(gpu, options, |compiled, graph| {
+            let plan = compiled.shared_plan();
+            let (id, desc) = written(&plan, texture, version)?;
+            let mut visit = |contained: Contained| {
+                if contained.resource != id || contained.version != version {
+                    return ControlFlow::Continue(());
+                }
+                found = Some(VersionImage::new(&plan, &desc, &contained));
+                ControlFlow::Break(())
+            };
+            Ok(compiled.execute_visited(graph, &gpu.device, &gpu.queue, &mut visit)?)
+        })?;
+        let image = found.unwrap_or_else(|| Err("no pass that runs writes it".into()));
+        image.map_err(|reason| crate::Error::NoImage { name: texture.into(), version, reason })
     }
 }
 
@@ -111,6 +151,29 @@ impl InspectedFrame {
         page.drawings.extend(above::from_above(self, scene_lights, options));
         page
     }
+}
+
+/// Returns the texture of a name or path, if the frame writes the version.
+fn written(plan: &Plan, texture: &str, version: u32) -> Result<(ResourceId, TextureDesc), crate::Error> {
+    let is_named = |id: ResourceId, name: &str| name == texture || plan.resource_path(id) == texture;
+    let textures = || {
+        plan.resources().filter_map(|(id, resource)| match resource.desc {
+            ResourceDesc::Texture(desc) => Some((id, resource.name, desc)),
+            ResourceDesc::Buffer(_) => None,
+        })
+    };
+    let Some((id, _, desc)) = textures().rev().find(|(id, name, _)| is_named(*id, name)) else {
+        let hint = did_you_mean(texture, textures().map(|(_, name, _)| name));
+        return Err(crate::Error::UnknownTexture { name: texture.into(), hint });
+    };
+    let writes = plan.order().iter().flat_map(|&pass| plan.accesses(pass));
+    let writes = writes.filter(|access| access.resource == id && access.contents.is_some());
+    let last = writes.map(|access| access.version + 1).max().unwrap_or(0);
+    if (1..=last).contains(&version) {
+        return Ok((id, desc));
+    }
+    let reason = format!("expected a version from 1 to {last}");
+    Err(crate::Error::NoImage { name: texture.into(), version, reason })
 }
 
 /// Returns the last captured contents of a buffer as structs.

@@ -2,6 +2,8 @@
 
 use super::gpu::Gpu;
 use crate::{Contained, Contents, Format, Frame, Graph, Plan, Rect, Subresource, TextureDesc};
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicU32, Ordering};
 
 /// Draws a frame and returns what was visited, with the names of pass and resource.
 fn visit<'f>(gpu: &'f Gpu, declare: impl Fn(&mut Frame<'f>)) -> (Vec<Contained>, Plan) {
@@ -10,7 +12,10 @@ fn visit<'f>(gpu: &'f Gpu, declare: impl Fn(&mut Frame<'f>)) -> (Vec<Contained>,
     declare(&mut frame);
     let mut visited = Vec::new();
     let compiled = graph.compile(frame).unwrap();
-    let mut keep = |contained| visited.push(contained);
+    let mut keep = |contained| {
+        visited.push(contained);
+        ControlFlow::Continue(())
+    };
     let executed = compiled.execute_visited(&mut graph, &gpu.device, &gpu.queue, &mut keep).unwrap();
     (visited, executed.plan().clone())
 }
@@ -129,5 +134,35 @@ fn mips_and_aspects_are_separate_and_buffers_have_their_range() {
             .find(|contained| contained.bytes.as_ref().is_ok_and(|bytes| bytes.len() == 8))
             .unwrap();
         assert_eq!(uploaded.bytes, Ok(vec![1, 2, 3, 4, 5, 6, 7, 8]));
+    }
+}
+
+#[test]
+fn passes_after_the_one_where_a_visit_breaks_do_not_run() {
+    for gpu in Gpu::all() {
+        let runs = AtomicU32::new(0);
+        let mut graph = Graph::new();
+        let mut frame = graph.frame();
+        let mut image = frame.create_texture("image", TextureDesc::d2(8, 4, Format::R8Unorm));
+        for (name, x, width) in [("first", 0, 4), ("second", 4, 2), ("third", 6, 2)] {
+            let mut pass = frame.render_pass(name);
+            pass.subresource(Subresource::FULL.rect(Rect::new(x, 0, width, 4))).color(&mut image, gray(0.5));
+            pass.body(|_| {
+                runs.fetch_add(1, Ordering::Relaxed);
+                Ok(())
+            });
+        }
+        frame.export_texture(&image);
+        let mut versions = Vec::new();
+        let mut visit = |contained: Contained| {
+            versions.push(contained.version);
+            if contained.version == 2 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        };
+        graph
+            .compile(frame)
+            .unwrap()
+            .execute_visited(&mut graph, &gpu.device, &gpu.queue, &mut visit)
+            .unwrap();
+        assert_eq!((versions, runs.into_inner()), (vec![1, 2], 2));
     }
 }
