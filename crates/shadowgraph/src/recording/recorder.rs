@@ -17,7 +17,7 @@ use crate::render_config::RenderConfig;
 use crate::shadow_lines::ShadowLines;
 use crate::view_options::ViewOptions;
 
-/// Records what renderers are given for their frames: see [`Renderer::set_recorder`].
+/// Records what renderers are given for their frames: see [`Renderer::set_recorder`](crate::Renderer::set_recorder).
 ///
 /// It ends by itself, with a [reason](Self::ended_because), where it reaches its limit of memory, and where something changes that recordings
 /// do not have: inserted and removed meshes, materials, images and instances, edited meshes and images, a replaced scene, and frames of
