@@ -180,8 +180,11 @@ pub(crate) fn recorded_input(
     scene.notes.iter().for_each(|note| console::warning(note));
     let shows_ground = options.aov == Aov::Color && options.pipeline.has_sky();
     let ground = options.ground.place(&scene, shows_ground);
-    let recorder =
-        record_mib.map(|limit_mib| recording::recorder(args, &scene, &ground, limit_mib)).transpose()?;
+    let recorder = record_mib.map(|limit_mib| {
+        let mut loaded = scene.clone();
+        ground.add_to(&mut loaded);
+        recording::recorder(args, &loaded, limit_mib)
+    });
     scene.set_time(options.animation.resolve(&scene.hierarchy)?, options.time.0)?;
     if let Some(note) = options.sun.apply(&mut scene) {
         console::warning(&note);

@@ -8,7 +8,6 @@ use serde_json::json;
 use super::args::DrawArgs;
 use super::console;
 use super::failure::Failure;
-use shadowgraph::options::PlacedGround;
 use shadowgraph::output::write_text;
 use shadowgraph::recording::Recorder;
 use shadowgraph::scene::Scene;
@@ -25,35 +24,13 @@ pub(crate) struct Source {
     pub(crate) ground: String,
 }
 
-/// Creates the recorder of a scene as it was loaded.
-pub(crate) fn recorder(
-    args: &DrawArgs,
-    scene: &Scene,
-    ground: &PlacedGround,
-    limit_mib: u32,
-) -> Result<Recorder, Failure> {
-    let DrawArgs { scene: file, variant, procedural, ground: choice, .. } = args.clone();
-    let file = file.map(std::path::absolute).transpose()?;
-    let mut scene = scene.clone();
-    ground.add_to(&mut scene);
-    Ok(Source { file, variant, procedural, ground: choice }.recorder(&scene, limit_mib))
-}
-
-/// Creates the recorder of a scene, with its ground, that was opened from a file, or of the built-in one.
-#[cfg(feature = "view")]
-pub(crate) fn opened(file: Option<&Path>, args: &DrawArgs, scene: &Scene, limit_mib: u32) -> Recorder {
-    let file = file.map(|file| std::path::absolute(file).unwrap_or_else(|_| file.to_owned()));
-    let ground = args.ground.clone();
-    Source { file, variant: None, procedural: None, ground }.recorder(scene, limit_mib)
-}
-
-impl Source {
-    fn recorder(self, scene: &Scene, limit_mib: u32) -> Recorder {
-        let Self { file, variant, procedural, ground } = self;
-        let file = file.map(|file| file.to_string_lossy().into_owned());
-        let source = json!({ "file": file, "variant": variant, "procedural": procedural, "ground": ground });
-        Recorder::new(scene, source, limit_mib)
-    }
+/// Creates the recorder of a scene as it was loaded, with its ground.
+pub(crate) fn recorder(args: &DrawArgs, scene: &Scene, limit_mib: u32) -> Recorder {
+    let DrawArgs { scene: file, variant, procedural, ground, .. } = args;
+    let file = file.as_ref().map(|file| std::path::absolute(file).unwrap_or_else(|_| file.clone()));
+    let file = file.map(|file| file.to_string_lossy().into_owned());
+    let source = json!({ "file": file, "variant": variant, "procedural": procedural, "ground": ground });
+    Recorder::new(scene, source, limit_mib)
 }
 
 /// Writes the file of a recorder.

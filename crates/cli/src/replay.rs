@@ -4,8 +4,8 @@ use std::path::Path;
 
 use serde::Deserialize;
 
-use super::args::RenderArgs;
-use super::commands::{check_output, file_pixels, load, use_shaders};
+use super::args::{DrawArgs, RenderArgs};
+use super::commands::{self, check_output, file_pixels, use_shaders};
 use super::console;
 use super::failure::Failure;
 use super::frame_files::FrameFiles;
@@ -17,7 +17,6 @@ use shadowgraph::output::write_png;
 use shadowgraph::recording::{Recording, RecordingError};
 use shadowgraph::scene::Scene;
 use shadowgraph::{Gpu, Registry, Replay};
-use shadowgraph_samples::named_scene;
 
 /// `shadowgraph render --replay`
 pub(crate) fn replay(file: &Path, args: &RenderArgs, registry: &Registry) -> Result<(), Failure> {
@@ -28,7 +27,7 @@ pub(crate) fn replay(file: &Path, args: &RenderArgs, registry: &Registry) -> Res
     let check_values = ranges.map(values::parse).transpose()?;
     let adapter: AdapterChoice = args.draw.adapter.as_deref().map_or(Ok(Default::default()), str::parse)?;
     let recording = Recording::load(file).map_err(|error| OptionError::new("replay", error.to_string()))?;
-    let scene = scene(&recording).map_err(|failure| Failure {
+    let scene = scene(&recording, &args.draw).map_err(|failure| Failure {
         message: format!("--replay: {}: {}", file.display(), failure.message),
         ..failure
     })?;
@@ -71,13 +70,10 @@ pub(crate) fn replay(file: &Path, args: &RenderArgs, registry: &Registry) -> Res
 }
 
 /// Loads the scene of a recording.
-fn scene(recording: &Recording) -> Result<Scene, Failure> {
+fn scene(recording: &Recording, args: &DrawArgs) -> Result<Scene, Failure> {
     let Source { file, variant, procedural, ground } = Source::deserialize(recording.source())?;
-    let mut scene = match (&file, &procedural) {
-        (Some(file), _) => load(file, variant.as_deref())?,
-        (None, name) => named_scene(name.as_deref().unwrap_or("demo"))?,
-    };
-    let ground: GroundChoice = ground.parse()?;
-    ground.place(&scene, true).add_to(&mut scene);
+    let choice: GroundChoice = ground.parse()?;
+    let mut scene = commands::scene(&args.with_scene(file, variant, procedural))?;
+    choice.place(&scene, true).add_to(&mut scene);
     Ok(scene)
 }

@@ -32,19 +32,17 @@ impl VersionImage {
             .ok_or_else(|| format!("texels of {:?} cannot be shown", desc.format))?;
         let Extent { width, height, .. } = desc.size.mip_level_size(part.first_mip(), desc.dimension);
         let [width, height] = part.bounds().map_or([width, height], |rect| [rect.width, rect.height]);
-        let texels: Option<Vec<_>> =
-            bytes.chunks_exact(layout.bytes()).map(|texel| layout.values(texel)).collect();
-        let texels = texels.unwrap_or_default();
-        let layers = texels.len() as u32 / (width * height).max(1);
+        let texels = || bytes.chunks_exact(layout.bytes()).filter_map(|texel| layout.values(texel));
+        let layers = (bytes.len() / layout.bytes()) as u32 / (width * height).max(1);
         let kind = desc.format.sample_type(None, None);
         let is_color = matches!(kind, Some(TextureSampleType::Float { .. }));
-        let range = (!is_color).then(|| range(&texels));
+        let range = (!is_color).then(|| range(texels()));
         // Bytes are stored as screens show them.
         let encoded = layout.bytes() == usize::from(desc.format.components());
-        let rgb8 = texels.iter().flat_map(|texel| match range {
-            Some(range) => stretched(texel, range),
-            None if encoded => rgb(texel, |value| value),
-            None => rgb(texel, srgb),
+        let rgb8 = texels().flat_map(|texel| match range {
+            Some(range) => stretched(&texel, range),
+            None if encoded => rgb(&texel, |value| value),
+            None => rgb(&texel, srgb),
         });
         let rgb8 = rgb8.collect();
         let pass = pass.map(|pass| plan.pass_path(pass)).unwrap_or_default();
@@ -53,10 +51,10 @@ impl VersionImage {
 }
 
 /// Returns the smallest and the largest finite value.
-fn range(texels: &[Vec<f64>]) -> [f64; 2] {
-    let finite = texels.iter().flatten().copied().filter(|value| value.is_finite());
-    let [low, high] =
-        [finite.clone().fold(f64::INFINITY, f64::min), finite.fold(f64::NEG_INFINITY, f64::max)];
+fn range(texels: impl Iterator<Item = Vec<f64>>) -> [f64; 2] {
+    let finite = texels.flatten().filter(|value| value.is_finite());
+    let [low, high] = finite
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)]);
     if low <= high { [low, high] } else { [0.0, 0.0] }
 }
 

@@ -1,6 +1,6 @@
 //! Drawing recorded frames again.
 
-use shadowgraph_scene::{GroundPlane, Scene};
+use shadowgraph_scene::{GroundPlane, Scene, origin_near};
 use shadowgraph_shadows::ShadowSettings;
 
 use crate::error::Error;
@@ -146,6 +146,12 @@ impl<'r> Replay<'r> {
 
     /// Gives a renderer what a frame has besides its views.
     fn prepare(&self, gpu: &Gpu, entry: &FrameEntry, renderer: &mut Renderer) -> Result<(), Error> {
+        if let Some(camera) = &entry.shadow_camera {
+            camera.check(1.0)?;
+        }
+        if entry.ground.is_some_and(|height_world| !height_world.is_finite()) {
+            return Err(Error::Recorded("the height of the ground is not finite".into()));
+        }
         renderer.set_shadow_camera(entry.shadow_camera.clone());
         renderer.set_overlay(gpu, entry.overlay)?;
         let scene = renderer.scene_mut();
@@ -173,7 +179,7 @@ impl<'r> Replay<'r> {
             culling: entry.culling,
         };
         let aov: Aov = entry.aov.parse().map_err(|error: OptionError| Error::Recorded(error.to_string()))?;
-        Renderer::at_origin(gpu, scene, entry.origin_world, aov, config)
+        Renderer::at_origin(gpu, scene, origin_near(entry.origin_world), aov, config)
     }
 
     fn pipeline(&self, entry: &PipelineEntry) -> Result<Pipeline, Error> {

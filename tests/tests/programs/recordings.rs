@@ -74,20 +74,20 @@ fn what_cannot_be_drawn_again_is_an_error_of_one_line() {
     let first_lines = |count: usize| text.lines().take(count).collect::<Vec<_>>().join("\n") + "\n";
     for (text, expected) in [
         (String::new(), "other.frames:1: not a recording of Shadowgraph"),
-        ("{}".to_owned(), "other.frames:1: not a recording of Shadowgraph"),
-        (
-            text.replace("\"version\":1", "\"version\":7"),
-            "other.frames:1: version 7 of recordings; expected 1",
-        ),
+        ("()".to_owned(), "other.frames:1: not a recording of Shadowgraph"),
+        (text.replace("version:1", "version:7"), "other.frames:1: version 7 of recordings; expected 1"),
         (first_lines(1), "other.frames:2: the recording has no frame"),
         (text[..text.len() - 9].to_owned(), "other.frames:7: "),
-        (text.replacen("\"technique\":\"virtual", "\"technique\":\"virtua", 1), "did you mean `virtual`?"),
-        (text.replacen("size_px\":[96", "size_px\":[0", 1), "other.frames:2: view 0: size_px out of range"),
+        (text.replacen("technique:\"virtual", "technique:\"virtua", 1), "did you mean `virtual`?"),
         (
-            text.replacen("\"procedural\":null", "\"procedural\":\"cornell\"", 1),
+            text.replacen("size_px:Some((96", "size_px:Some((0", 1),
+            "other.frames:2: view 0: size_px out of range",
+        ),
+        (
+            text.replacen("\"procedural\":()", "\"procedural\":\"cornell\"", 1),
             "is not the one of the recording",
         ),
-        (text.replacen("\"file\":null", "\"file\":\"/no/such.glb\"", 1), "/no/such.glb"),
+        (text.replacen("\"file\":()", "\"file\":\"/no/such.glb\"", 1), "/no/such.glb"),
     ] {
         let error = with(&[], &text);
         assert!(error.starts_with("error: --replay: ") && error.contains(expected), "{error}");

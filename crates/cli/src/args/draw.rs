@@ -104,6 +104,16 @@ impl DrawArgs {
         Self { pipeline, ..self.clone() }
     }
 
+    /// Returns the arguments with another scene: a file or, without one, a procedural scene or the built-in one.
+    pub(crate) fn with_scene(
+        &self,
+        scene: Option<PathBuf>,
+        variant: Option<String>,
+        procedural: Option<String>,
+    ) -> Self {
+        Self { scene, variant, procedural, ..self.clone() }
+    }
+
     /// Returns the name of the scene: its file, or that of a procedural one.
     pub(crate) fn scene_name(&self) -> String {
         match (&self.scene, &self.procedural) {

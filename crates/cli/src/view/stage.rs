@@ -134,8 +134,9 @@ impl Stage {
             Err(failure) => return self.file_error = Some(failure.message),
         };
         self.ground.place(&scene, true).add_to(&mut scene);
-        self.recorder =
-            self.record_mib.map(|limit_mib| recording::opened(file, &self.draw, &scene, limit_mib));
+        self.recorder = self.record_mib.map(|limit_mib| {
+            recording::recorder(&self.draw.with_scene(file.map(PathBuf::from), None, None), &scene, limit_mib)
+        });
         let name = file.map_or("the built-in scene".into(), |file| file.display().to_string());
         self.note = SunChoice::default().apply(&mut scene).unwrap_or(name);
         let camera = scene.cameras.first().cloned().unwrap_or_else(|| scene.framing_camera(16.0 / 9.0));

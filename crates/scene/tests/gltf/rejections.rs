@@ -79,9 +79,7 @@ fn transforms_that_are_not_finite_or_too_far_are_rejected() {
         file.json["nodes"][0] = node;
         file
     };
-    // Beyond the range of f32, which the reader of JSON finds.
-    let far = json!({"mesh": 0, "translation": [1e39, 0, 0]});
-    assert_rejected(&with(far), &["JSON: number out of range at line 1 column "]);
+    assert_rejected(&with(json!({"mesh": 0, "translation": [1e39, 0, 0]})), &["node 0", "allowed"]);
     assert_rejected(&with(json!({"mesh": 0, "scale": [1e20, 1, 1]})), &["node 0", "1e15"]);
     assert_rejected(&with(json!({"mesh": 0, "rotation": [0, 0, 0, 0]})), &["node 0", "rotation"]);
     let projective = json!({"mesh": 0, "matrix": [1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]});

@@ -1,4 +1,4 @@
-//! What a recording has of a frame: a line of its file.
+//! What a recording has of a frame: a line of its file, in RON, whose numbers read back as the same bits.
 
 use glam::{DAffine3, DVec3};
 use serde::{Deserialize, Serialize};

@@ -2,6 +2,9 @@
 
 use std::path::Path;
 
+use ron::error::SpannedError;
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
 use serde_json::Value;
 
 use super::entry::{FORMAT, FrameEntry, Header, VERSION};
@@ -77,25 +80,33 @@ impl Recording {
 }
 
 fn header(line: &str) -> Result<Header, String> {
-    let value: Value = serde_json::from_str(line).unwrap_or_default();
-    if value["format"] != FORMAT {
+    let Ok(Kind { format, version }) = ron::from_str(line) else {
+        return Err("not a recording of Shadowgraph".into());
+    };
+    if format != FORMAT {
         return Err("not a recording of Shadowgraph".into());
     }
-    if value["version"] != VERSION {
-        return Err(format!("version {} of recordings; expected {VERSION}", value["version"]));
+    if version != VERSION {
+        return Err(format!("version {version} of recordings; expected {VERSION}"));
     }
-    serde_json::from_value(value).map_err(|error| error.to_string())
+    parse(line)
+}
+
+/// What the headers of all versions have.
+#[derive(Deserialize)]
+struct Kind {
+    format: String,
+    version: u32,
+}
+
+/// Parses a line.
+fn parse<T: DeserializeOwned>(line: &str) -> Result<T, String> {
+    let described = |error: SpannedError| format!("column {}: {}", error.span.start.col, error.code);
+    ron::from_str(line).map_err(|error| described(error).replace('\n', " "))
 }
 
 fn frame(line: &str, is_first: bool) -> Result<FrameEntry, String> {
-    let entry: FrameEntry = serde_json::from_str(line).map_err(|error| {
-        // The line is that of the file.
-        let reason = error.to_string();
-        reason
-            .split(" at line ")
-            .next()
-            .map_or(String::new(), |reason| format!("column {}: {reason}", error.column()))
-    })?;
+    let entry: FrameEntry = parse(line)?;
     if is_first && entry.renderer.is_none() {
         return Err("the first frame has no `renderer`".into());
     }

@@ -1,7 +1,5 @@
 //! Recording.
 
-use std::fmt::Write as _;
-
 use glam::DVec3;
 use serde_json::Value;
 use shadowgraph_scene::{Camera, Changes, Scene};
@@ -169,13 +167,8 @@ impl Recorder {
             overlay: renderer.overlay,
             views,
         };
-        let bytes = self.lines.len();
         self.write(&entry);
-        if self.lines.len() > self.limit_bytes {
-            self.lines.truncate(bytes);
-            return self.end("the limit of its memory is reached");
-        }
-        self.frame_count += 1;
+        self.frame_count += usize::from(self.ended.is_none());
     }
 
     /// Returns what differs in views from those of the last frame, which they become.
@@ -203,13 +196,15 @@ impl Recorder {
         Some(entries)
     }
 
-    /// Adds a line.
+    /// Adds a line, or ends where that is not possible.
     fn write(&mut self, value: &impl serde::Serialize) {
-        match serde_json::to_string(value) {
-            Ok(line) => {
-                let _infallible = writeln!(self.lines, "{line}");
+        match ron::to_string(value) {
+            Ok(line) if self.lines.len() + line.len() < self.limit_bytes => {
+                self.lines.push_str(&line);
+                self.lines.push('\n');
             }
-            Err(_) => self.end("a value cannot be written as JSON"),
+            Ok(_) => self.end("the limit of its memory is reached"),
+            Err(_) => self.end("a value cannot be written as RON"),
         }
     }
 }

@@ -2,22 +2,23 @@
 
 use bytemuck::cast_slice;
 use shadowgraph_scene::{Instance, InstanceKey, Light, Material, MaterialKey, Scene};
+use xxhash_rust::xxh3::Xxh3;
 
 use super::entry::{InstanceEdit, SceneEdits, SceneSummary};
 use super::error::RecordingError;
 
 impl SceneSummary {
     pub(crate) fn new(scene: &Scene) -> Self {
-        let mut geometry = Hash::default();
+        let mut geometry = Xxh3::new();
         for (_, mesh) in scene.meshes() {
-            geometry.add(cast_slice(&mesh.vertices));
-            geometry.add(cast_slice(&mesh.indices));
+            geometry.update(cast_slice(&mesh.vertices));
+            geometry.update(cast_slice(&mesh.indices));
         }
         Self {
             instances: scene.instances().len(),
             materials: scene.materials().len(),
             meshes: scene.meshes().len(),
-            geometry: geometry.0,
+            geometry: geometry.digest(),
         }
     }
 
@@ -32,23 +33,6 @@ impl SceneSummary {
         ];
         let other = parts.into_iter().find(|(_, same)| !same);
         other.map_or(Ok(()), |(what, _)| Err(RecordingError::OtherScene { what }))
-    }
-}
-
-/// The hash FNV-1a of 64 bits: the same on every machine.
-struct Hash(u64);
-
-impl Default for Hash {
-    fn default() -> Self {
-        Self(0xcbf2_9ce4_8422_2325)
-    }
-}
-
-impl Hash {
-    fn add(&mut self, bytes: &[u8]) {
-        for byte in bytes {
-            self.0 = (self.0 ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
-        }
     }
 }
 
