@@ -77,6 +77,15 @@ pub const OCCLUDED: ModuleSource = file!("occluded.wgsl");
 /// `ENVIRONMENT` by the number of its binding in group 0.
 pub const SKY_LIGHT: ModuleSource = file!("sky_light.wgsl");
 
+/// What [`MAPPED`] says about a point; it replaces the built-in module `shadowgraph::explanation`, which says nothing.
+pub const MAPPED_EXPLANATION: ModuleSource = file!("shadows/mapped_explanation.wgsl");
+
+/// What [`VIRTUAL`] says about a point, as [`MAPPED_EXPLANATION`].
+pub const PAGE_EXPLANATION: ModuleSource = file!("shadows/page_explanation.wgsl");
+
+/// What [`RAYTRACED`] says about a point, as [`MAPPED_EXPLANATION`].
+pub const TRACED_EXPLANATION: ModuleSource = file!("shadows/traced_explanation.wgsl");
+
 /// The technique `raytraced`: hard shadows by rays through the scene's triangles.
 pub const RAYTRACED: ModuleSource = file!("shadows/raytraced.wgsl");
 
@@ -123,6 +132,8 @@ pub(crate) const MODULES: &[ModuleSource] = &[
     file!("shadows/colors.wgsl"),
     file!("shadows/cube.wgsl"),
     file!("shadows/evsm_layout.wgsl"),
+    file!("shadows/explained_lookup.wgsl"),
+    file!("shadows/explanation.wgsl"),
     file!("shadows/footprint.wgsl"),
     file!("shadows/layers.wgsl"),
     file!("shadows/linear_depth.wgsl"),

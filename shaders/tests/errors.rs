@@ -105,7 +105,7 @@ fn a_missing_technique_is_an_error_that_lists_the_built_in_ones() {
 #[test]
 fn an_unknown_entry_file_is_an_error_that_lists_the_existing_ones() {
     let text = compose("foward.wgsl", &[]).unwrap_err().to_string();
-    let start = "unknown built-in entry file `foward.wgsl`; expected one of: background.wgsl, blur.wgsl, check.wgsl, clusters.wgsl, ";
+    let start = "unknown built-in entry file `foward.wgsl`; expected one of: background.wgsl, blur.wgsl, check.wgsl, check_explanation.wgsl, ";
     assert!(text.starts_with(start), "{text}");
     assert!(
         text.contains(", pages_update.wgsl, pages_view.wgsl, pose.wgsl, post/bloom.wgsl, ")

@@ -100,6 +100,9 @@ pub(super) fn draw_frames(
     if renderer.overlay().is_some() && !draws_lines() {
         console::warning("--overlay draws nothing: the technique has no shadow maps with frusta");
     }
+    if *renderer.aov() == Aov::Pages && drawn.counts.shadows.is_empty() {
+        console::warning("--aov pages shows what `cascade` does: the technique has no pages");
+    }
     drawn.counts.shadow_warning.iter().for_each(|line| console::warning(line));
     keep(frames.count - 1, &drawn)?;
     Ok((drawn, renderer.take_recorder()))

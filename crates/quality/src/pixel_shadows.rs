@@ -1,32 +1,27 @@
 //! The shadows of each light at one pixel: what the technique shows there, and what a ray says.
 
 mod remedies;
+mod text;
+mod traced;
 
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
-use std::fmt::Write as _;
 
-use glam::{DVec3, Vec3};
+use glam::DVec3;
 use serde::Serialize;
-use shadowgraph::inspect::lights::kind;
 use shadowgraph::options::Aov;
-use shadowgraph::{Gpu, RenderConfig, Renderer, ViewOptions};
+use shadowgraph::{ExplainedShadow, Gpu, RenderConfig, Renderer, ShadowExplainer, ViewOptions};
 use shadowgraph_scene::{Light, LightKind, Scene};
-use shadowgraph_shadows::rays::{LightShape, Ray, RayScene, ReceiverPoint, trace_hard};
-use shadowgraph_shadows::{RAYTRACED, Unshadowed, VIRTUAL};
+use shadowgraph_shadows::{RAYTRACED, ShadowFact, Unshadowed, VIRTUAL};
 
-use super::ground_truth::{RayLight, receiver};
 use super::scene_truth::SceneTruth;
-use super::subpixel::SubpixelReference;
 use super::{SurfaceReader, Surfaces};
+use traced::Traced;
 
 use crate::Error;
 
 /// A technique's visibility differs from that of a ray if it is off by more than this.
 const DIFFERENCE: f32 = 0.5;
-
-/// Distances that are the same up to this factor are those of one surface.
-const SAME_SURFACE: f32 = 1e-3;
 
 /// The shadows at a pixel.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -67,6 +62,11 @@ pub struct PixelLight {
     pub unshadowed: Option<String>,
     /// Red, green and blue of the image `visibility:N` at the pixel, 0 to 255, if light can reach the surface.
     pub visibility: Option<[u8; 3]>,
+    /// The visibility that the technique computes at the surface, without what it computes in screen space, red, green and blue, 0 to 1;
+    /// `None` for a technique without an explanation.
+    pub visibility_at_point: Option<[f32; 3]>,
+    /// Where the technique reads it from: its map, depths and biases.
+    pub facts: Vec<ShadowFact>,
     /// The transmittance of a ray to the centre of the light, red, green and blue, 0 to 1, if light can reach the surface.
     pub ray: Option<[f32; 3]>,
     /// The nearest opaque surface along that ray.
@@ -136,6 +136,7 @@ pub struct ShadowInspector<'i> {
     unshadowed: Vec<Unshadowed>,
     /// The image `visibility:N` of each light N that a pixel has needed, and its renderer.
     visible: BTreeMap<u32, (Renderer, Vec<u8>)>,
+    explainer: Option<(Renderer, ShadowExplainer)>,
 }
 
 impl<'i> ShadowInspector<'i> {
@@ -149,15 +150,26 @@ impl<'i> ShadowInspector<'i> {
         options: &'i ViewOptions,
         config: &'i RenderConfig,
     ) -> Result<Self, Error> {
-        let mut renderer =
-            Renderer::with_config(gpu, scene.clone(), &options.camera, Aov::Color, config.clone())?;
+        let aov = if scene.lights().is_empty() { Aov::Color } else { Aov::Visibility(0) };
+        let mut renderer = Renderer::with_config(gpu, scene.clone(), &options.camera, aov, config.clone())?;
         let surfaces = SurfaceReader::new(gpu, &renderer)?.read(gpu, &mut renderer, options)?;
         let origin_world = renderer.casters().scene.origin_world();
         let (_, unshadowed) = renderer.plan(options)?;
         let mut truth = SceneTruth::default();
         truth.follow(scene, origin_world)?;
-        let visible = BTreeMap::new();
-        Ok(Self { gpu, scene, options, config, origin_world, surfaces, truth, unshadowed, visible })
+        let explainer = ShadowExplainer::new(gpu, &renderer)?.map(|explainer| (renderer, explainer));
+        Ok(Self {
+            gpu,
+            scene,
+            options,
+            config,
+            origin_world,
+            surfaces,
+            truth,
+            unshadowed,
+            visible: BTreeMap::new(),
+            explainer,
+        })
     }
 
     /// Returns the shadows at a pixel, column and row from the top left. The first pixel that a light reaches draws its visibility.
@@ -183,8 +195,22 @@ impl<'i> ShadowInspector<'i> {
             }
             Ok(found)
         });
-        let lights = lights.collect::<Result<_, Error>>()?;
+        let mut lights = lights.collect::<Result<Vec<_>, Error>>()?;
+        self.explain(index, &mut lights)?;
         Ok(PixelShadows { technique, surface: Some(self.traced(index).surface()), lights })
+    }
+
+    /// Adds what the technique says about the lights that reach a pixel.
+    fn explain(&mut self, index: usize, lights: &mut [PixelLight]) -> Result<(), Error> {
+        let reached = || lights.iter().filter(|light| light.reach == Reachability::Reached);
+        let points: Vec<_> = reached().map(|light| self.traced(index).point(light.light)).collect();
+        let Some((renderer, explainer)) = &mut self.explainer else { return Ok(()) };
+        let explained = explainer.explain(self.gpu, renderer, self.options, &points)?;
+        let reached = lights.iter_mut().filter(|light| light.reach == Reachability::Reached);
+        for (light, ExplainedShadow { visibility, facts }) in reached.zip(explained) {
+            (light.visibility_at_point, light.facts) = (Some(visibility.to_array()), facts);
+        }
+        Ok(())
     }
 
     fn traced(&self, index: usize) -> Traced<'_> {
@@ -266,143 +292,4 @@ impl Best<'_> {
 
 fn rgb(rgba8: &[u8], index: usize) -> Option<[u8; 3]> {
     rgba8.chunks_exact(4).nth(index).map(|rgba| [rgba[0], rgba[1], rgba[2]])
-}
-
-/// What rays from a pixel's surface depend on.
-struct Traced<'t> {
-    truth: &'t SceneTruth,
-    surfaces: &'t Surfaces,
-    options: &'t ViewOptions,
-    origin_world: DVec3,
-    index: usize,
-}
-
-impl Traced<'_> {
-    fn eye(&self) -> Vec3 {
-        (self.options.camera.position_world() - self.origin_world).as_vec3()
-    }
-
-    fn surface(&self) -> PixelSurface {
-        let position = self.surfaces.positions[self.index];
-        PixelSurface {
-            position_world: (position.as_dvec3() + self.origin_world).to_array(),
-            normal: self.surfaces.normals[self.index].to_array(),
-            view_depth_m: self.surfaces.view_depths_m[self.index],
-            instance: self.seen(position),
-        }
-    }
-
-    /// Returns the name of the instance that the camera sees.
-    fn seen(&self, position: Vec3) -> Option<String> {
-        let (direction, distance_m) = (position - self.eye()).normalize_and_length();
-        let ray = Ray::new(self.eye(), direction, 0.0, f32::INFINITY);
-        let hit = self.truth.rays()?.nearest_hit(&ray)?;
-        let is_seen = (hit.distance_m - distance_m).abs() <= SAME_SURFACE * distance_m;
-        if is_seen { self.truth.name(hit.instance) } else { None }
-    }
-
-    fn light(&self, number: u32, light: &Light) -> PixelLight {
-        let source = RayLight::new(light, 0.0, self.origin_world);
-        let mut found = PixelLight {
-            light: number,
-            name: light.name.clone().unwrap_or_default(),
-            kind: kind(light),
-            reach: Reachability::Outside,
-            unshadowed: None,
-            visibility: None,
-            ray: None,
-            blocker: None,
-            is_at_edge: false,
-            remedy: None,
-        };
-        let receiver = receiver(self.surfaces, self.index, self.eye());
-        let Some(rays) = self.truth.rays() else { return found };
-        if source.direction_from(receiver.position).is_none() {
-            return found;
-        }
-        let hard = trace_hard(rays, &source.shape, &receiver, true);
-        if hard.faces_away {
-            return PixelLight { reach: Reachability::FacesAway, ..found };
-        }
-        found.reach = Reachability::Reached;
-        found.ray = Some(hard.visibility.to_array());
-        found.blocker = self.blocker(rays, &source.shape, &receiver);
-        found
-    }
-
-    fn is_at_edge(&self, light: &Light) -> bool {
-        let source = RayLight::new(light, 0.0, self.origin_world);
-        let Some(rays) = self.truth.rays() else { return false };
-        SubpixelReference::new(rays, &source, self.surfaces, self.options).changes_around(self.index)
-    }
-
-    fn blocker(&self, rays: &RayScene, light: &LightShape, receiver: &ReceiverPoint) -> Option<PixelBlocker> {
-        let hit = rays.nearest_hit(&light.ray(rays, receiver, glam::Vec2::ZERO)?)?;
-        Some(PixelBlocker { instance: self.truth.name(hit.instance)?, distance_m: hit.distance_m })
-    }
-}
-
-impl PixelShadows {
-    /// Returns the shadows as text, a line for each light.
-    #[must_use]
-    pub fn to_text(&self) -> String {
-        let mut text = format!("shadows of `{}`\n", self.technique);
-        let Some(surface) = &self.surface else {
-            text.push_str("  no surface: the background\n");
-            return text;
-        };
-        let PixelSurface { position_world: [x, y, z], normal: [a, b, c], view_depth_m, instance } = surface;
-        let named = instance.as_ref().map_or_else(String::new, |name| format!(" of `{name}`"));
-        let _ = writeln!(
-            text,
-            "  surface{named} at {x:.3} {y:.3} {z:.3}, normal {a:.3} {b:.3} {c:.3}, {view_depth_m:.3} m in front of the camera"
-        );
-        for light in &self.lights {
-            let name = if light.name.is_empty() { String::new() } else { format!(" `{}`", light.name) };
-            let _ = writeln!(text, "  light {}{name} ({}): {}", light.light, light.kind, described(light));
-        }
-        text
-    }
-}
-
-fn described(light: &PixelLight) -> String {
-    match light.reach {
-        Reachability::FacesAway => return "dark: the surface faces away".into(),
-        Reachability::Outside => return "dark: outside of its range or cone".into(),
-        Reachability::Reached => {}
-    }
-    let visibility = light.visibility.map(|rgb| format!("visibility {}, ", shown(rgb))).unwrap_or_default();
-    let truth = match (&light.blocker, light.ray) {
-        (Some(PixelBlocker { instance, distance_m }), _) => {
-            format!("blocked by `{instance}`, {distance_m:.3} m away")
-        }
-        (None, Some(rgb)) if rgb != [1.0; 3] => format!("{} passes translucent surfaces", channels(rgb)),
-        (None, _) => "nothing blocks".into(),
-    };
-    let unshadowed = light.unshadowed.as_ref().map_or_else(String::new, |why| format!("; no shadows: {why}"));
-    let place = if light.is_at_edge {
-        "at an edge, where the technique differs"
-    } else {
-        "the technique is wrong here"
-    };
-    let differs = match &light.remedy {
-        Some(PixelRemedy { setting, visibility }) => {
-            format!("; {place}: `{setting}` gives {}", shown(*visibility))
-        }
-        None if light.differs() => format!("; {place}, and no setting that was tried helps"),
-        None => String::new(),
-    };
-    format!("{visibility}{truth}{differs}{unshadowed}")
-}
-
-fn shown(visibility: [u8; 3]) -> String {
-    channels(visibility.map(|byte| f32::from(byte) / 255.0))
-}
-
-/// Writes equal channels once.
-fn channels(rgb: [f32; 3]) -> String {
-    match rgb {
-        [r, g, b] if r == g && g == b => format!("{r:.3}"),
-        [r, g, b] => format!("{r:.3} {g:.3} {b:.3}"),
-    }
 }

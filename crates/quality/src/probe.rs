@@ -8,6 +8,7 @@ use shadowgraph_core::{
 };
 use shadowgraph_lighting::{Geometry, ViewUniforms};
 use shadowgraph_scene::gpu::DrawList;
+use shadowgraph_shadows::binding::{FLOAT_MAP, STORAGE, UNIFORM, layout};
 use shadowgraph_shadows::{
     CullSettings, ShadowCounts, ShadowInputs, ShadowSettings, add_shadows, shadow_layout,
 };
@@ -103,8 +104,8 @@ impl Probe {
             label: Some("probe.wgsl"),
             source: wgpu::ShaderSource::Naga(Cow::Owned(module)),
         });
-        let view_layout = layout(device, &[UNIFORM, STORAGE]);
-        let points_layout = layout(device, &[UNIFORM, POINTS, RESULTS]);
+        let view_layout = layout(device, "probe", &[UNIFORM, STORAGE]);
+        let points_layout = layout(device, "probe", &[UNIFORM, FLOAT_MAP, RESULTS]);
         let shadow_layout = shadow_layout(device, renderer.technique());
         let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("probe"),
@@ -294,33 +295,8 @@ fn texture_bytes(plan: &Plan) -> u64 {
     bytes.sum()
 }
 
-const STORAGE: wgpu::BindingType = buffer(wgpu::BufferBindingType::Storage { read_only: true });
-const UNIFORM: wgpu::BindingType = buffer(wgpu::BufferBindingType::Uniform);
-
-const POINTS: wgpu::BindingType = wgpu::BindingType::Texture {
-    sample_type: wgpu::TextureSampleType::Float { filterable: false },
-    view_dimension: wgpu::TextureViewDimension::D2,
-    multisampled: false,
-};
-
 const RESULTS: wgpu::BindingType = wgpu::BindingType::StorageTexture {
     access: wgpu::StorageTextureAccess::WriteOnly,
     format: Format::R32Float,
     view_dimension: wgpu::TextureViewDimension::D2,
 };
-
-const fn buffer(ty: wgpu::BufferBindingType) -> wgpu::BindingType {
-    wgpu::BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None }
-}
-
-fn layout(device: &wgpu::Device, types: &[wgpu::BindingType]) -> wgpu::BindGroupLayout {
-    let entry = |(binding, &ty): (u32, &wgpu::BindingType)| wgpu::BindGroupLayoutEntry {
-        binding,
-        visibility: wgpu::ShaderStages::COMPUTE,
-        ty,
-        count: None,
-    };
-    let entries: Vec<_> = (0..).zip(types).map(entry).collect();
-    let label = Some("probe");
-    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label, entries: &entries })
-}

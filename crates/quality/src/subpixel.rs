@@ -17,9 +17,7 @@ pub const SUBPIXEL_GRID: u32 = 7;
 pub(super) struct SubpixelReference<'a> {
     rays: &'a RayScene,
     light: &'a RayLight,
-    surfaces: &'a Surfaces,
-    origin_world: DVec3,
-    world_from_clip: DMat4,
+    planes: PixelPlanes<'a>,
     eye: Vec3,
 }
 
@@ -31,10 +29,8 @@ impl<'a> SubpixelReference<'a> {
         options: &ViewOptions,
     ) -> Self {
         let origin_world = rays.origin_world();
-        let camera = &options.camera;
-        let clip_from_world = camera.clip_from_view(options.aspect()) * camera.view_from_world();
-        let eye = (camera.position_world() - origin_world).as_vec3();
-        Self { rays, light, surfaces, origin_world, world_from_clip: clip_from_world.inverse(), eye }
+        let eye = (options.camera.position_world() - origin_world).as_vec3();
+        Self { rays, light, planes: PixelPlanes::new(surfaces, options, origin_world), eye }
     }
 
     /// Returns whether the reference changes within [`SUBPIXEL_RADIUS_PX`] of a pixel's centre, on its tangent plane.
@@ -48,15 +44,31 @@ impl<'a> SubpixelReference<'a> {
 
     /// Reference next to a pixel's centre; `None` where its plane is not sampled.
     fn truth(&self, pixel: usize, offset_px: DVec2) -> Option<f32> {
-        let position = self.surface_point(pixel, offset_px)?.as_vec3();
-        let geometric_normal = self.surfaces.normals[pixel];
+        let position = self.planes.point(pixel, offset_px)?.as_vec3();
+        let geometric_normal = self.planes.surfaces.normals[pixel];
         let receiver =
             ReceiverPoint { position, geometric_normal, view_distance_m: position.distance(self.eye) };
         Some(mean(trace_hard(self.rays, &self.light.shape, &receiver, false).visibility))
     }
+}
+
+/// The tangent planes of the surfaces of a view, between the centres of pixels.
+pub(super) struct PixelPlanes<'a> {
+    surfaces: &'a Surfaces,
+    origin_world: DVec3,
+    world_from_clip: DMat4,
+}
+
+impl<'a> PixelPlanes<'a> {
+    /// `origin_world`: that of the surfaces.
+    pub(super) fn new(surfaces: &'a Surfaces, options: &ViewOptions, origin_world: DVec3) -> Self {
+        let camera = &options.camera;
+        let clip_from_world = camera.clip_from_view(options.aspect()) * camera.view_from_world();
+        Self { surfaces, origin_world, world_from_clip: clip_from_world.inverse() }
+    }
 
     /// Returns the point of a pixel's tangent plane at an offset from its centre, relative to the frame's origin.
-    fn surface_point(&self, pixel: usize, offset_px: DVec2) -> Option<DVec3> {
+    pub(super) fn point(&self, pixel: usize, offset_px: DVec2) -> Option<DVec3> {
         let [width, height] = self.surfaces.size_px;
         let (x, y) = (pixel as u32 % width, pixel as u32 / width);
         let size = DVec2::new(f64::from(width), f64::from(height));

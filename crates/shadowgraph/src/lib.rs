@@ -48,6 +48,7 @@ mod casters;
 mod culling;
 mod debug_blit;
 mod error;
+mod explain;
 mod gpu;
 #[cfg(feature = "inspect")]
 pub mod inspect;
@@ -74,6 +75,7 @@ pub use casters::SceneCasters;
 pub use culling::Culling;
 pub use debug_blit::DebugBlit;
 pub use error::Error;
+pub use explain::{ExplainedShadow, ShadowExplainer, ShadowPoint};
 pub use gpu::Gpu;
 pub use pipelines::Pipeline;
 pub use registry::Registry;

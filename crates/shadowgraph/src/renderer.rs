@@ -350,7 +350,7 @@ impl Renderer {
         let mut frame = self.graph().frame();
         let output = self.add(&mut frame, &view)?;
         frame.export_texture(&output.image);
-        Ok((self.graph().compile(frame)?.shared_plan(), output.unshadowed))
+        Ok((self.graph().compile(frame)?.shared_plan(), output.shadows.unshadowed))
     }
 
     /// Culls and sorts the geometry of a view that the CPU culls, for [`add`](Self::add) and for other passes over it. `target` is the target of a colour

@@ -23,6 +23,7 @@ mod casters;
 mod cull;
 mod culled;
 mod error;
+mod explained_lookup;
 mod gpu_casters;
 mod layered_casters;
 mod light_params;
@@ -77,8 +78,9 @@ pub use settings::{
 };
 pub use spot::{MAX_SPOT_HALF_ANGLE, SpotCone, SpotFit};
 pub use technique::{
-    CountWarning, GpuData, GpuField, GpuStruct, MAX_MASK_LIGHTS, MaskLayers, ShadowBinding, ShadowCounts,
-    ShadowOutputs, ShadowTechnique, ShadowTokens, SurfaceBuffers, add_shadows, binding, shadow_layout,
+    CountWarning, EXPLANATION_VALUES, ExplanationValues, GpuData, GpuField, GpuStruct, MAX_MASK_LIGHTS,
+    MaskLayers, ShadowBinding, ShadowCounts, ShadowExplanation, ShadowFact, ShadowOutputs, ShadowTechnique,
+    ShadowTokens, SurfaceBuffers, add_shadows, binding, shadow_layout,
 };
 pub use techniques::{
     ContactSettings, Evsm, EvsmMoments, EvsmPrecision, EvsmSettings, Msm, MsmSettings, NoShadows, Pcf, Pcss,

@@ -5,8 +5,8 @@ use shadowgraph::core::Frame;
 use shadowgraph::shaders::{MAPPED, ModuleSource};
 use shadowgraph::shadows::binding::UNIFORM;
 use shadowgraph::shadows::{
-    Error, GpuData, GpuStruct, NamedSettings, Requirements, ShadowBinding, ShadowInputs, ShadowMaps,
-    ShadowOutputs, ShadowTechnique, SurfaceBuffers, TechniqueKind, declare_settings, gpu_struct,
+    Error, GpuData, GpuStruct, NamedSettings, Requirements, ShadowBinding, ShadowExplanation, ShadowInputs,
+    ShadowMaps, ShadowOutputs, ShadowTechnique, SurfaceBuffers, TechniqueKind, declare_settings, gpu_struct,
 };
 
 /// The technique for the registry: a name, a description, a constructor, and the settings.
@@ -61,6 +61,11 @@ impl ShadowTechnique for Esm {
 
     fn gpu_structs(&self) -> Vec<GpuStruct> {
         vec![GpuStruct::new::<Falloff>("Falloff")]
+    }
+
+    fn explanation(&self) -> Option<ShadowExplanation> {
+        // `shadowgraph pixel` names the texel that a point is read from, depths and biases.
+        Some(ShadowMaps::explanation())
     }
 
     fn add_to<'f>(

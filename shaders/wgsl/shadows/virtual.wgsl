@@ -11,7 +11,7 @@
 }
 #import shadowgraph::shadows::page_filter::{half_width, softness}
 #import shadowgraph::shadows::pages::{
-    BLEND_PART, COARSENING_STEPS, Projection, Softness, direction_to_light, narrowing, project, wanted_level,
+    BLEND_PART, COARSENING_STEPS, Softness, direction_to_light, narrowing, project, wanted_level,
 }
 #import shadowgraph::shadows::tints::tint
 #import shadowgraph::shadows::types::ShadowLight
@@ -37,7 +37,8 @@ fn page_visibility(shadow: ShadowLight, receiver: Receiver, soft: Softness, foun
 }
 
 // The level that a point is read from; the fraction says how near it is to the next one.
-fn level_at(projection: Projection, receiver: Receiver) -> f32 {
+fn level_at(index: u32, receiver: Receiver) -> f32 {
+    let projection = projections[index];
     let to_camera = direction_to_camera(receiver.position - view.position);
     let to_light = direction_to_light(projection, receiver.position);
     let finer = narrowing(receiver.geometric_normal, to_camera, to_light);
@@ -48,12 +49,12 @@ fn level_at(projection: Projection, receiver: Receiver) -> f32 {
     return min(wanted, f32(projection.level_count - 1u));
 }
 
-// The index of the projection of a point among those of its light.
-fn face_of(shadow: ShadowLight, receiver: Receiver) -> u32 {
+// The index of the projection of a point.
+fn projection_of(shadow: ShadowLight, receiver: Receiver) -> u32 {
     if DIRECTIONAL || shadow.view_count == 1u {
-        return 0u;
+        return shadow.first_view;
     }
-    return cube_face(receiver.position - projections[shadow.first_view].center);
+    return shadow.first_view + cube_face(receiver.position - projections[shadow.first_view].center);
 }
 
 fn strength_at(shadow: ShadowLight, receiver: Receiver) -> f32 {
@@ -67,9 +68,8 @@ fn shadow_visibility(light: u32, receiver: Receiver) -> vec3f {
     if shadow.view_count == 0u || strength <= 0.0 {
         return vec3f(1.0);
     }
-    let index = shadow.first_view + face_of(shadow, receiver);
-    let projection = projections[index];
-    let soft = softness(index, shadow, receiver, level_at(projection, receiver));
+    let index = projection_of(shadow, receiver);
+    let soft = softness(index, shadow, receiver, level_at(index, receiver));
     let wanted = soft.level;
     let finest = u32(wanted);
     var found = find_page(index, shadow, receiver, finest);
@@ -98,13 +98,12 @@ fn shadow_debug_color(light: u32, receiver: Receiver) -> vec3f {
     if shadow.view_count == 0u || strength <= 0.0 {
         return vec3f(1.0);
     }
-    let index = shadow.first_view + face_of(shadow, receiver);
-    let projection = projections[index];
-    let found = find_page(index, shadow, receiver, u32(level_at(projection, receiver)));
+    let index = projection_of(shadow, receiver);
+    let found = find_page(index, shadow, receiver, u32(level_at(index, receiver)));
     if !found.exists {
         return vec3f(1.0);
     }
     let is_odd = ((found.page.place.x + found.page.place.y) & 1) == 1;
-    let exponent = levels[projection.first_level + found.page.level].exponent;
+    let exponent = levels[projections[index].first_level + found.page.level].exponent;
     return cascade_tint(u32(exponent & 3)) * select(1.0, 0.75, is_odd) * select(0.45, 1.0, found.is_drawn);
 }

@@ -8,6 +8,7 @@ use shadowgraph::inspect::{PixelHistory, WriteEffect};
 use shadowgraph::options::Aov;
 use shadowgraph::scene::gltf;
 use shadowgraph::scene::{AnimationSelection, CasterMode, Light, LightKind, Scene};
+use shadowgraph::shadows::Techniques;
 use shadowgraph::shadows::rays::ReceiverPoint;
 use shadowgraph::{Gpu, RenderConfig, Renderer, SceneRays, ViewOptions};
 use shadowgraph_quality::{PixelLight, PixelShadows, PixelSurface, Reachability, ShadowInspector};
@@ -201,6 +202,61 @@ fn assert_shadows(gpu: &Gpu, (name, scene): (&str, &Scene), options: &ViewOption
         "{name}: {reached} lights at pixels, {blocked} blocked, {compared} compared with f64, {wrong} wrong, each with a setting"
     );
     assert!(blocked > 0 && compared * 2 > reached, "{name}: {reached}, {blocked}, {compared}");
+}
+
+/// The value of a fact of a light.
+fn fact(light: &PixelLight, name: &str) -> Option<f32> {
+    Some(*light.facts.iter().find(|fact| fact.name == name)?.values.first()?)
+}
+
+/// Asserts that the depths of a lookup are those of a ray, where the whole filter agrees with the ray.
+fn assert_depths(light: &PixelLight, place: &str) -> bool {
+    let texel_m = fact(light, "width of a texel").unwrap();
+    let slope = fact(light, "slope that is followed").unwrap();
+    // A stored surface may be as much in front as the receiver's plane changes over some texels.
+    let tolerance_m = texel_m * (4.0 + 4.0 * slope);
+    let in_front_m = fact(light, "stored surface in front by");
+    match (light.visibility.unwrap(), light.ray.unwrap(), &light.blocker) {
+        ([0, 0, 0], [0.0, 0.0, 0.0], Some(blocker)) => {
+            // The stored surface is that nearest to the light, the blocker that nearest to the receiver.
+            let in_front_m = in_front_m.unwrap();
+            assert!(in_front_m > blocker.distance_m - tolerance_m, "{place}: {in_front_m}, {light:?}");
+        }
+        ([255, 255, 255], [1.0, 1.0, 1.0], None) => {
+            assert!(in_front_m.is_none_or(|in_front_m| in_front_m < tolerance_m), "{place}: {light:?}");
+        }
+        _ => return false,
+    }
+    let [shown, at_point] =
+        [light.visibility.unwrap()[0], (light.visibility_at_point.unwrap()[0] * 255.0) as u8];
+    assert!(shown.abs_diff(at_point) <= 2, "{place}: {shown}, {at_point}");
+    true
+}
+
+#[test]
+fn facts_of_each_technique_agree_with_images_and_with_rays() {
+    let Some(gpu) = gpu() else { return };
+    let scene = demo_scene();
+    let options = ViewOptions { size_px: [160, 90], ..view(scene.cameras[0].clone(), 60.0) };
+    for kind in Techniques::built_in().kinds() {
+        let name = kind.name;
+        let config = RenderConfig { technique: Some((*kind).into()), ..RenderConfig::default() };
+        let mut inspector = ShadowInspector::new(gpu, &scene, &options, &config).unwrap();
+        let mut random = Random::new(2);
+        let (mut with_facts, mut compared) = (0, 0);
+        for _ in 0..20 {
+            let pixel = [random.below(160) as u32, random.below(90) as u32];
+            let lights = inspector.shadows_at(pixel).unwrap().lights;
+            for light in lights.iter().filter(|light| light.reach == Reachability::Reached) {
+                with_facts += u32::from(!light.facts.is_empty());
+                let has_depths = fact(light, "stored depth").is_some() && !matches!(name, "evsm" | "msm");
+                compared += u32::from(has_depths && assert_depths(light, &format!("{name}, {pixel:?}")));
+            }
+        }
+        println!("{name}: {with_facts} lights with facts, {compared} compared");
+        assert_eq!(with_facts > 0, name != "none", "{name}");
+        assert!(compared > 5 || matches!(name, "none" | "raytraced" | "evsm" | "msm"), "{name}: {compared}");
+    }
 }
 
 #[test]

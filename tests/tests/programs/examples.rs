@@ -274,6 +274,12 @@ fn a_third_party_technique_is_rendered_measured_and_dumped() {
     assert!(refused.code == Some(1) && refused.stderr.contains(expected), "{}", refused.stderr);
     let drawn = program(&["render", "--technique", "esm+contact", "--size", "320x180", "-o", "esm.png"]);
     assert_eq!(drawn.code, Some(0), "{}", drawn.stderr);
+    let pixel = program(&["pixel", "160,120", "--size", "320x180", "--technique", "esm"]);
+    assert!(
+        pixel.stdout.contains("    cascade: ") && pixel.stdout.contains("    stored depth: "),
+        "{}",
+        pixel.stdout
+    );
     let case = r#"(cases: [(
         scene: TestScene("cube"), sun_elevations_deg: [40], sun_heading_deg: 55,
         views: [(name: "near", eye: (3, 2, 5), target: (0, 0.5, 0))],

@@ -1,9 +1,9 @@
 //! The image of a view, by AOV.
 
-use shadowgraph_core::{Buffer, Contents, Format, Frame, Texture, did_you_mean};
-use shadowgraph_lighting::LitOutput;
+use shadowgraph_core::{Contents, Format, Frame, Texture, did_you_mean};
+use shadowgraph_lighting::{LitOutput, ViewBuffers};
 use shadowgraph_scene::Light;
-use shadowgraph_shadows::{ShadowOutputs, Unshadowed};
+use shadowgraph_shadows::ShadowOutputs;
 
 use super::Renderer;
 use crate::error::Error;
@@ -16,14 +16,18 @@ impl Renderer {
     ///
     /// # Errors
     /// For settings out of range, and for an output that the pipeline does not have.
-    pub fn add<'f>(&'f self, frame: &mut Frame<'f>, view: &'f RenderView<'f>) -> Result<ViewOutput, Error> {
+    pub fn add<'f>(
+        &'f self,
+        frame: &mut Frame<'f>,
+        view: &'f RenderView<'f>,
+    ) -> Result<ViewOutput<'f>, Error> {
         view.add_pose(frame);
         let output = self.instance.add(frame, view)?;
         self.previous_cameras.set(view.index, &view.options.camera, view.options.aspect());
         let mut image = self.aov_image(frame, view, &output)?;
         self.add_overlay(frame, view, &output, &mut image);
-        let ShadowOutputs { map_buffers: shadow_buffers, unshadowed, .. } = output.shadows;
-        Ok(ViewOutput { image, shadow_buffers, unshadowed })
+        let PipelineOutput { view, shadows, .. } = output;
+        Ok(ViewOutput { image, view, shadows })
     }
 
     /// Draws the overlay over an image, if there is one.
@@ -82,14 +86,14 @@ impl Renderer {
     }
 }
 
-/// The outputs of a view.
-pub struct ViewOutput {
+/// The outputs of a view, for passes that follow it.
+pub struct ViewOutput<'f> {
     /// Four bytes per pixel, as large as the view.
     pub image: Texture,
-    /// The GPU data of shadow maps, if there are any.
-    pub shadow_buffers: Option<[Buffer; 2]>,
-    /// The lights that should cast shadows and do not, with the reason.
-    pub unshadowed: Vec<Unshadowed>,
+    /// The camera and the lights; `None` for a pipeline that does not output them.
+    pub view: Option<ViewBuffers>,
+    /// The shadows; empty for a pipeline without shadows.
+    pub shadows: ShadowOutputs<'f>,
 }
 
 /// Refuses integer textures.

@@ -75,6 +75,6 @@ fn numbers(bytes: Option<ReadBack>, device: &wgpu::Device) -> Result<Vec<u32>, E
 }
 
 /// Returns the error for a read-back that the frame did not execute.
-pub(super) fn read_back_error() -> Error {
+pub(crate) fn read_back_error() -> Error {
     Error::Gpu("nothing was read back".into())
 }

@@ -1,6 +1,7 @@
 //! Images that are drawn and read back.
 
 use shadowgraph_core::{Buffer, Compiled, Executed, Graph, ResourceId, Subresource, Timer};
+use shadowgraph_shadows::ShadowOutputs;
 
 use super::Renderer;
 use super::counts::{CountRequests, read_back_error};
@@ -84,9 +85,9 @@ impl Renderer {
             let image = RenderedImage { size_px: options.size_px, rgba8: texels.wait(&gpu.device)? };
             let values = executed.take_values().map(|values| values.wait(&gpu.device)).transpose()?;
             let (plan, times) = (executed.shared_plan(), Vec::new());
-            let unshadowed = output.unshadowed;
+            let ShadowOutputs { unshadowed, map_buffers: shadow_buffers, .. } = output.shadows;
             let frame = RenderedFrame { image, plan, times, unshadowed, counts, values };
-            Ok(Drawn { frame, image: output.image.id(), shadow_buffers: output.shadow_buffers })
+            Ok(Drawn { frame, image: output.image.id(), shadow_buffers })
         });
         self.end_frame(drawn.is_ok(), &[options]);
         drawn

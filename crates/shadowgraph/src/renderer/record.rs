@@ -126,7 +126,7 @@ impl Renderer {
     }
 
     /// Compiles and executes a frame; a frame that is declared like an earlier one reuses its plan, textures and bind groups.
-    pub(super) fn execute(
+    pub(crate) fn execute(
         &self,
         frame: Frame<'_>,
         gpu: &Gpu,

@@ -3,6 +3,7 @@
 pub(crate) mod cache;
 mod contents;
 mod draw;
+mod explanation;
 mod kept;
 mod queries;
 mod reasons;
@@ -19,6 +20,7 @@ use cache::{CachedMap, Revision};
 use draw::{ATLAS, CASCADES, Source};
 use restore::Restore;
 use shadowgraph_core::{Buffer, Frame, Texture};
+use shadowgraph_shaders::MAPPED_EXPLANATION;
 
 use crate::atlas::TileRect;
 use crate::caster_view::{TINT_FORMAT, caster_view_layout};
@@ -29,7 +31,7 @@ use crate::planner::plan_shadows_after;
 use crate::requirements::Requirements;
 use crate::select::Unshadowed;
 use crate::technique::binding::{DEPTH_MAP, FLOAT_MAP, STORAGE, UNIFORM};
-use crate::technique::{ShadowBinding, ShadowOutputs};
+use crate::technique::{ShadowBinding, ShadowExplanation, ShadowOutputs};
 use crate::views::ShadowView;
 
 /// The common part of techniques with shadow maps: it plans the maps of each frame, and draws casters into their tiles.
@@ -98,6 +100,12 @@ impl ShadowMaps {
     pub const BINDING_TYPES: [wgpu::BindingType; 10] = [
         STORAGE, STORAGE, DEPTH_MAP, DEPTH_MAP, FLOAT_MAP, FLOAT_MAP, DEPTH_MAP, DEPTH_MAP, UNIFORM, UNIFORM,
     ];
+
+    /// Returns the [explanation](crate::ShadowTechnique::explanation) of a technique with these maps and
+    /// [`MAPPED`](shadowgraph_shaders::MAPPED): the tile that a point is read from, depths and biases.
+    pub fn explanation() -> ShadowExplanation {
+        ShadowExplanation { modules: vec![MAPPED_EXPLANATION], describe: explanation::describe }
+    }
 
     /// Creates what stays the same for all frames.
     pub fn new(device: &wgpu::Device) -> Self {

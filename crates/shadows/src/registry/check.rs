@@ -46,8 +46,17 @@ pub(super) fn kind(kind: &TechniqueKind) -> Result<(), String> {
                 .try_for_each(|described| described.check(&module))
                 .map_err(one_line)?;
         }
-        check_bindings(&device, technique.as_ref(), module)
-    })
+        check_bindings(&device, technique.as_ref(), "cs_check", module)
+    })?;
+    explanation(&device, technique.as_ref())
+}
+
+/// Checks that the WGSL that explains points composes, and reads what `binding_types` declares.
+fn explanation(device: &wgpu::Device, technique: &dyn ShadowTechnique) -> Result<(), String> {
+    let Some(explanation) = technique.explanation() else { return Ok(()) };
+    let modules = [technique.modules(0), explanation.modules].concat();
+    let module = compose("check_explanation.wgsl", &modules).map_err(one_line)?;
+    check_bindings(device, technique, "cs_check_explanation", module)
 }
 
 /// The bindings of a stage that a lit pass leaves to techniques within wgpu's default limits: it reads the lights, the uniform blocks of
@@ -79,12 +88,13 @@ pub(super) fn limits(types: &[wgpu::BindingType]) -> Result<(), String> {
 fn check_bindings(
     device: &wgpu::Device,
     technique: &dyn ShadowTechnique,
+    entry: &str,
     module: naga::Module,
 ) -> Result<(), String> {
     caught(device, || {
-        let shader = shader(device, "check.wgsl", module);
+        let shader = shader(device, "check", module);
         let layouts = [&layout(device, "view", &[UNIFORM, STORAGE]), &shadow_layout(device, technique)];
-        pipeline(device, &shader, "cs_check", &layouts);
+        pipeline(device, &shader, entry, &layouts);
     })
 }
 

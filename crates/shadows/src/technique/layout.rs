@@ -2,7 +2,7 @@
 
 use super::ShadowTechnique;
 
-/// Common types of bindings.
+/// Common types of bindings, and layouts of them.
 pub mod binding {
     /// A read-only storage buffer.
     pub const STORAGE: wgpu::BindingType = wgpu::BindingType::Buffer {
@@ -34,6 +34,25 @@ pub mod binding {
     pub const COMPARISON_SAMPLER: wgpu::BindingType =
         wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Comparison);
 
+    /// Creates a layout with these bindings, numbered from 0, for fragment and compute shaders. Storage textures are visible to
+    /// compute shaders only.
+    pub fn layout(device: &wgpu::Device, label: &str, types: &[wgpu::BindingType]) -> wgpu::BindGroupLayout {
+        let entry = |(binding, &ty): (u32, &wgpu::BindingType)| wgpu::BindGroupLayoutEntry {
+            binding,
+            visibility: match ty {
+                wgpu::BindingType::StorageTexture { .. } => wgpu::ShaderStages::COMPUTE,
+                _ => wgpu::ShaderStages::FRAGMENT | wgpu::ShaderStages::COMPUTE,
+            },
+            ty,
+            count: None,
+        };
+        let entries: Vec<_> = (0..).zip(types).map(entry).collect();
+        device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some(label),
+            entries: &entries,
+        })
+    }
+
     const fn texture(sample_type: wgpu::TextureSampleType) -> wgpu::BindingType {
         wgpu::BindingType::Texture {
             sample_type,
@@ -45,26 +64,5 @@ pub mod binding {
 
 /// Creates the layout of a technique's bind group 1, for lit passes and compute passes.
 pub fn shadow_layout(device: &wgpu::Device, technique: &dyn ShadowTechnique) -> wgpu::BindGroupLayout {
-    layout(device, technique.name(), &technique.binding_types())
-}
-
-/// Creates a layout with these bindings, numbered from 0, for fragment and compute shaders. Storage textures are visible to
-/// compute shaders only.
-pub(crate) fn layout(
-    device: &wgpu::Device,
-    label: &str,
-    types: &[wgpu::BindingType],
-) -> wgpu::BindGroupLayout {
-    let entry = |(binding, &ty): (u32, &wgpu::BindingType)| wgpu::BindGroupLayoutEntry {
-        binding,
-        visibility: match ty {
-            wgpu::BindingType::StorageTexture { .. } => wgpu::ShaderStages::COMPUTE,
-            _ => wgpu::ShaderStages::FRAGMENT | wgpu::ShaderStages::COMPUTE,
-        },
-        ty,
-        count: None,
-    };
-    let entries: Vec<_> = (0..).zip(types).map(entry).collect();
-    device
-        .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some(label), entries: &entries })
+    binding::layout(device, technique.name(), &technique.binding_types())
 }

@@ -2,6 +2,7 @@
 
 mod check;
 mod counts;
+mod explanation;
 mod gpu_struct;
 mod layout;
 mod mask_layers;
@@ -10,8 +11,9 @@ mod outputs;
 pub(crate) use check::add_checked;
 pub use check::add_shadows;
 pub use counts::{CountWarning, ShadowCounts};
+pub use explanation::{EXPLANATION_VALUES, ExplanationValues, ShadowExplanation, ShadowFact};
 pub use gpu_struct::{GpuData, GpuField, GpuStruct};
-pub(crate) use layout::layout;
+pub(crate) use layout::binding::layout;
 pub use layout::{binding, shadow_layout};
 pub(crate) use mask_layers::MASK_FORMAT;
 pub use mask_layers::{MAX_MASK_LIGHTS, MaskLayers};
@@ -68,6 +70,12 @@ pub trait ShadowTechnique: Send + Sync {
     /// Returns the structs that it writes in Rust and reads in WGSL: their layouts are compared when it is registered.
     fn gpu_structs(&self) -> Vec<GpuStruct> {
         Vec::new()
+    }
+
+    /// Returns how it explains the shadow at a point to who debugs a pixel, if it does. A technique with the library's maps returns
+    /// [`ShadowMaps::explanation`](crate::ShadowMaps::explanation).
+    fn explanation(&self) -> Option<ShadowExplanation> {
+        None
     }
 
     /// Adds its passes to the frame. Without a shadowed light or a caster in range it adds none. `requirements` are those that

@@ -9,7 +9,7 @@ use crate::maps::{ShadowMaps, comparison_sampler};
 use crate::plan::{ShadowInputs, ShadowPlan};
 use crate::requirements::Requirements;
 use crate::technique::binding::COMPARISON_SAMPLER;
-use crate::technique::{ShadowBinding, ShadowOutputs, ShadowTechnique, SurfaceBuffers};
+use crate::technique::{ShadowBinding, ShadowExplanation, ShadowOutputs, ShadowTechnique, SurfaceBuffers};
 
 /// The default technique; see the modules `shadows/tiles.wgsl` and `shadows/pcf.wgsl` for how its maps are read.
 pub struct Pcf {
@@ -58,6 +58,10 @@ impl ShadowTechnique for Pcf {
 
     fn binding_types(&self) -> Vec<wgpu::BindingType> {
         [&ShadowMaps::BINDING_TYPES[..], &[COMPARISON_SAMPLER]].concat()
+    }
+
+    fn explanation(&self) -> Option<ShadowExplanation> {
+        Some(ShadowMaps::explanation())
     }
 
     fn add_to<'f>(

@@ -23,7 +23,7 @@ use crate::requirements::Requirements;
 use crate::settings::{NamedSettings, Setting, refused};
 use crate::technique::binding::UNIFORM;
 use crate::technique::{GpuData, GpuStruct};
-use crate::technique::{ShadowBinding, ShadowOutputs, ShadowTechnique, SurfaceBuffers};
+use crate::technique::{ShadowBinding, ShadowExplanation, ShadowOutputs, ShadowTechnique, SurfaceBuffers};
 use prefilter::{Prefilter, Settings};
 
 /// `evsm`: two or four exponentially warped moments (Lauritzen and McCool, "Layered Variance Shadow Maps", 2008).
@@ -133,6 +133,10 @@ impl<S: Moments> ShadowTechnique for MomentShadows<S> {
 
     fn gpu_structs(&self) -> Vec<GpuStruct> {
         vec![GpuStruct::new::<S>("MomentSettings")]
+    }
+
+    fn explanation(&self) -> Option<ShadowExplanation> {
+        Some(ShadowMaps::explanation())
     }
 
     fn add_to<'f>(

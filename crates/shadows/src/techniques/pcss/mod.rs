@@ -20,7 +20,7 @@ use crate::requirements::Requirements;
 use crate::settings::NamedSettings;
 use crate::technique::binding::{COMPARISON_SAMPLER, UNIFORM};
 use crate::technique::{GpuData, GpuStruct};
-use crate::technique::{ShadowBinding, ShadowOutputs, ShadowTechnique, SurfaceBuffers};
+use crate::technique::{ShadowBinding, ShadowExplanation, ShadowOutputs, ShadowTechnique, SurfaceBuffers};
 
 /// Soft shadows from the maps of [`Pcf`](crate::Pcf); see the module `shadows/pcss.wgsl`.
 pub struct Pcss {
@@ -71,6 +71,10 @@ impl ShadowTechnique for Pcss {
 
     fn gpu_structs(&self) -> Vec<GpuStruct> {
         vec![GpuStruct::new::<Block>("Pcss")]
+    }
+
+    fn explanation(&self) -> Option<ShadowExplanation> {
+        Some(ShadowMaps::explanation())
     }
 
     fn add_to<'f>(

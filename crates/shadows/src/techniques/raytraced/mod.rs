@@ -9,7 +9,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use shadowgraph_core::{Bind, Buffer, Contents, Frame, Texture};
 use shadowgraph_scene::Light;
-use shadowgraph_shaders::{ModuleSource, RAYTRACED, compose};
+use shadowgraph_shaders::{ModuleSource, RAYTRACED, TRACED_EXPLANATION, compose};
 
 use super::compute::{dispatch, pipeline, shader};
 use super::mask::pass::{Layers, MaskPass, mask_texture, workgroups};
@@ -20,8 +20,10 @@ use crate::rays::{GpuRayScene, SurfaceKinds};
 use crate::requirements::Requirements;
 use crate::settings::NamedSettings;
 use crate::technique::binding::{FLOAT_MAP, STORAGE, UNIFORM};
-use crate::technique::{GpuData, GpuStruct, ShadowBinding, ShadowOutputs, ShadowTechnique, SurfaceBuffers};
-use crate::technique::{MaskLayers, layout};
+use crate::technique::{
+    ExplanationValues, GpuData, GpuStruct, MaskLayers, ShadowBinding, ShadowExplanation, ShadowFact,
+    ShadowOutputs, ShadowTechnique, SurfaceBuffers, layout,
+};
 
 /// `TRACED_UNMASKED` of `traced.wgsl`.
 const UNMASKED: u32 = u32::MAX - 1;
@@ -175,6 +177,10 @@ impl ShadowTechnique for Raytraced {
         vec![settings_struct()]
     }
 
+    fn explanation(&self) -> Option<ShadowExplanation> {
+        Some(ShadowExplanation { modules: vec![TRACED_EXPLANATION], describe })
+    }
+
     fn add_to<'f>(
         &'f self,
         frame: &mut Frame<'f>,
@@ -202,6 +208,17 @@ impl ShadowTechnique for Raytraced {
             let (debug, variant) = (vec![("shadow mask", bound)], variant(rays));
             Ok(ShadowOutputs { bindings, mask, debug, variant, colored_lights, ..ShadowOutputs::default() })
         })
+    }
+}
+
+/// Returns words for what `traced_explanation.wgsl` finds at a point.
+fn describe(values: &ExplanationValues) -> Vec<ShadowFact> {
+    match values {
+        [0.0, ..] => Vec::new(),
+        &[rays, offset_m, ..] => vec![
+            ShadowFact::new("rays", [rays], ""),
+            ShadowFact::new("distance of their origin from the surface", [offset_m], "m"),
+        ],
     }
 }
 

@@ -19,7 +19,9 @@ use crate::requirements::Requirements;
 use crate::settings::{NamedSettings, ShadowSettings};
 use crate::technique::binding::UNIFORM;
 use crate::technique::{GpuData, GpuStruct, MaskLayers};
-use crate::technique::{ShadowBinding, ShadowOutputs, ShadowTechnique, SurfaceBuffers, add_checked};
+use crate::technique::{
+    ShadowBinding, ShadowExplanation, ShadowOutputs, ShadowTechnique, SurfaceBuffers, add_checked,
+};
 use crate::views::{ShadowLight, ShadowView};
 use evaluate::EvaluatePass;
 
@@ -153,6 +155,10 @@ impl ShadowTechnique for ScreenShadows {
 
     fn gpu_structs(&self) -> Vec<GpuStruct> {
         self.inner.gpu_structs()
+    }
+
+    fn explanation(&self) -> Option<ShadowExplanation> {
+        self.inner.explanation()
     }
 
     fn add_to<'f>(

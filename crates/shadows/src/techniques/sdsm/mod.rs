@@ -18,7 +18,7 @@ use crate::light_params::settings_requirements;
 use crate::plan::ShadowInputs;
 use crate::requirements::Requirements;
 use crate::settings::NamedSettings;
-use crate::technique::{ShadowOutputs, ShadowTechnique, SurfaceBuffers};
+use crate::technique::{ShadowExplanation, ShadowOutputs, ShadowTechnique, SurfaceBuffers};
 use fit::GpuFit;
 
 /// The maps of [`Pcf`], with all cascades but the last fitted to the visible surfaces. The last cascade covers the whole view, for
@@ -62,6 +62,10 @@ impl ShadowTechnique for Sdsm {
 
     fn binding_types(&self) -> Vec<wgpu::BindingType> {
         self.pcf.binding_types()
+    }
+
+    fn explanation(&self) -> Option<ShadowExplanation> {
+        self.pcf.explanation()
     }
 
     fn add_to<'f>(

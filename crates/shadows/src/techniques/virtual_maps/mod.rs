@@ -7,6 +7,7 @@
 //!
 //! After Olsson et al., "Efficient Virtual Shadow Maps for Many Lights" (2014), and Sakmary, "Virtual Shadow Maps" (CESCG 2025).
 
+mod explanation;
 mod passes;
 mod plan;
 mod pool_view;
@@ -20,7 +21,7 @@ mod variant;
 pub use settings::VirtualSettings;
 
 use shadowgraph_core::{Frame, Texture};
-use shadowgraph_shaders::{ModuleSource, PAGE_PENUMBRA, PAGE_POOL, PCF_FILTER, VIRTUAL};
+use shadowgraph_shaders::{ModuleSource, PAGE_EXPLANATION, PAGE_PENUMBRA, PAGE_POOL, PCF_FILTER, VIRTUAL};
 
 use crate::error::Error;
 use crate::maps::{comparison_sampler, texel};
@@ -28,7 +29,7 @@ use crate::plan::ShadowInputs;
 use crate::requirements::Requirements;
 use crate::settings::NamedSettings;
 use crate::technique::binding::{COMPARISON_SAMPLER, DEPTH_MAP, STORAGE};
-use crate::technique::{ShadowBinding, ShadowOutputs, ShadowTechnique, SurfaceBuffers};
+use crate::technique::{ShadowBinding, ShadowExplanation, ShadowOutputs, ShadowTechnique, SurfaceBuffers};
 use passes::{FrameBuffers, Passes};
 use plan::VirtualPlan;
 use store::{PageNeeds, PoolSize, Stores};
@@ -134,6 +135,10 @@ impl ShadowTechnique for VirtualMaps {
 
     fn binding_types(&self) -> Vec<wgpu::BindingType> {
         vec![STORAGE, STORAGE, STORAGE, STORAGE, DEPTH_MAP, COMPARISON_SAMPLER, STORAGE, STORAGE]
+    }
+
+    fn explanation(&self) -> Option<ShadowExplanation> {
+        Some(ShadowExplanation { modules: vec![PAGE_EXPLANATION], describe: explanation::describe })
     }
 
     fn add_to<'f>(
