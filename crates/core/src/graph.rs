@@ -38,6 +38,10 @@ pub struct Graph {
     pub(crate) value_check: Option<crate::values::ValueCheck>,
     #[cfg(feature = "gpu")]
     pub(crate) value_pipelines: Option<crate::internal::ValueChecks>,
+    #[cfg(feature = "gpu")]
+    pub(crate) watch: Option<crate::watch::Watch>,
+    #[cfg(feature = "gpu")]
+    pub(crate) watched_plan: Option<crate::execute::WatchedPlan>,
 }
 
 impl Graph {
@@ -134,6 +138,37 @@ impl Graph {
     #[cfg(feature = "gpu")]
     pub fn check_values(&mut self, check: Option<crate::values::ValueCheck>) {
         self.value_check = check;
+    }
+
+    /// Watches a version of a texture in all frames from now on, or none, which is the default: frames that
+    /// [`execute`](crate::Compiled::execute) records copy it after the pass that writes it, and
+    /// [`Executed::take_watched`](crate::Executed::take_watched) returns it. Use it to show a running program's textures.
+    ///
+    /// The pass is no longer merged with those after it, and stores what it draws; all else is recorded as without. A frame that
+    /// does not write the version is recorded as usual, and so is one whose [values are checked](Self::check_values).
+    ///
+    /// ```
+    /// use shadowgraph_core::{Contents, Format, Graph, TextureDesc, Watch};
+    /// # use shadowgraph_core::wgpu;
+    /// # let (device, queue) = wgpu::Device::noop(&Default::default());
+    /// let mut graph = Graph::new();
+    /// graph.watch(Some(Watch::last("color")));
+    /// let mut frame = graph.frame();
+    /// let mut color = frame.create_texture("color", TextureDesc::d2(64, 64, Format::Rgba16Float));
+    /// frame.render_pass("draw").color(&mut color, Contents::clear_color([0.5; 4]));
+    /// frame.export_texture(&color);
+    /// let mut encoder = device.create_command_encoder(&Default::default());
+    /// let mut executed = graph.compile(frame)?.execute(&mut graph, &device, &mut encoder)?;
+    /// queue.submit([encoder.finish()]);
+    /// let watched = executed.take_watched().expect("the frame writes it");
+    /// // A program that must not wait asks `watched.is_ready()` after each of its next frames.
+    /// let snapshot = watched.wait(&device)?.expect("it has a first layer");
+    /// assert_eq!(snapshot.full_px, [64, 64]);
+    /// # Ok::<(), shadowgraph_core::Error>(())
+    /// ```
+    #[cfg(feature = "gpu")]
+    pub fn watch(&mut self, watch: Option<crate::watch::Watch>) {
+        self.watch = watch;
     }
 
     /// Returns the bytes of all transient textures and buffers and all histories that the graph holds, without the

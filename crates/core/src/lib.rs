@@ -77,6 +77,8 @@ mod texels;
 mod timer;
 mod times;
 mod values;
+#[cfg(feature = "gpu")]
+mod watch;
 
 pub use access::{Access, ClearValue, Contents};
 #[cfg(feature = "gpu")]
@@ -94,7 +96,8 @@ pub use dump::{JSON_SCHEMA, describe};
 pub use error::Error;
 #[cfg(feature = "gpu")]
 pub use execute::{
-    Executed, FailedFrame, FrameCapture, PendingCapture, PendingValues, ReadBack, ReadBackRequest,
+    Executed, FailedFrame, FrameCapture, PendingCapture, PendingTexture, PendingValues, ReadBack,
+    ReadBackRequest,
 };
 pub use frame::{Frame, History};
 pub use graph::{Graph, PlanCounts};
@@ -125,6 +128,8 @@ pub use texels::TexelLayout;
 pub use timer::Timer;
 pub use times::{PassTime, TimeHistory, TimeStats, TimeSummary};
 pub use values::{BadValues, Texel, ValueCheck, ValueReport};
+#[cfg(feature = "gpu")]
+pub use watch::Watch;
 #[cfg(feature = "gpu")]
 pub use wgpu;
 pub use wgpu_types::{BufferUsages, TextureUsages};

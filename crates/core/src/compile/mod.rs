@@ -17,7 +17,7 @@ mod validate;
 mod tests;
 
 #[cfg(feature = "gpu")]
-pub(crate) use keep::keeping;
+pub(crate) use keep::{keeping, watching};
 #[cfg(feature = "gpu")]
 pub(crate) use validate::copy_extent;
 

@@ -14,6 +14,7 @@ mod stepwise;
 mod threads;
 mod values;
 mod visit;
+mod watch;
 
 #[cfg(test)]
 mod tests;
@@ -22,6 +23,8 @@ pub use capture::{FrameCapture, PendingCapture};
 pub use checked::FailedFrame;
 pub use read_back::{ReadBack, ReadBackRequest};
 pub use values::PendingValues;
+pub use watch::PendingTexture;
+pub(crate) use watch::WatchedPlan;
 
 use crate::compiled::Compiled;
 use crate::error::Error;
@@ -41,6 +44,8 @@ pub struct Executed {
     read_backs: Vec<Option<ReadBack>>,
     /// The check of values, if the graph has one; `None` once taken.
     values: Option<PendingValues>,
+    /// The watched texture, if the graph watches one; `None` once taken.
+    watched: Option<PendingTexture>,
 }
 
 impl Executed {
@@ -87,6 +92,11 @@ impl Executed {
         self.values.take()
     }
 
+    /// Takes the texture that [the graph watches](Graph::watch); `None` if the frame does not write that version, or it was taken before.
+    pub fn take_watched(&mut self) -> Option<PendingTexture> {
+        self.watched.take()
+    }
+
     fn export(&self, version: Version) -> Option<&PhysicalResource> {
         let same_frame = version.frame == self.frame;
         let export = self.exports.iter().find(|(id, _)| same_frame && *id == version.resource);
@@ -95,8 +105,9 @@ impl Executed {
 }
 
 impl Graph {
-    fn checks_values(&self) -> bool {
-        self.value_check.is_some()
+    /// Returns whether passes are recorded one after the other, with something in between.
+    fn records_in_order(&self) -> bool {
+        self.value_check.is_some() || self.watch.is_some()
     }
 
     fn record(
@@ -106,12 +117,16 @@ impl Graph {
         encoder: &mut wgpu::CommandEncoder,
         timer: Option<&mut Timer>,
     ) -> Result<Executed, Error> {
-        match &self.value_check {
-            None => record::record(compiled, &mut self.device, device, encoder, timer, None),
-            Some(check) => {
+        match (&self.value_check, &self.watch) {
+            (Some(check), _) => {
                 let graph = (&mut self.device, &mut self.value_pipelines);
                 values::record_checked(compiled, graph, check, (device, encoder), timer)
             }
+            (None, Some(watch)) => {
+                let graph = (&mut self.device, &mut self.watched_plan);
+                watch::record_watched(compiled, graph, watch, (device, encoder), timer)
+            }
+            (None, None) => record::record(compiled, &mut self.device, device, encoder, timer, None),
         }
     }
 }
@@ -163,7 +178,7 @@ impl Compiled<'_> {
         device: &wgpu::Device,
         threads: usize,
     ) -> Result<(Executed, Vec<wgpu::CommandBuffer>), Error> {
-        if graph.checks_values() {
+        if graph.records_in_order() {
             let mut encoder = device.create_command_encoder(&Default::default());
             let executed = self.execute(graph, device, &mut encoder)?;
             return Ok((executed, vec![encoder.finish()]));

@@ -127,6 +127,7 @@ impl Prepared {
             exports,
             read_backs,
             values: None,
+            watched: None,
             plan: compiled.plan.clone(),
         }
     }

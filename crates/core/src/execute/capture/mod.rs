@@ -41,7 +41,7 @@ pub struct FrameCapture {
 }
 
 /// One mip level of a texture after the pass that wrote it.
-struct PendingSnapshot {
+pub(super) struct PendingSnapshot {
     resource: ResourceId,
     /// The range of versions that it shows.
     since: u32,
@@ -156,22 +156,9 @@ impl PendingCapture {
         let part = plan.decl.subresource(access);
         let (first, end) = part.mips.unwrap_or((0, desc.mip_levels));
         for mip in first..end {
-            let copied_part =
+            let copied =
                 TexturePart { mip, layers: layers(desc, part, mip), aspect: aspect(desc, part), rect: None };
-            let name = plan.decl.resource_name(access.resource);
-            let copied = recording.texture(access.resource).and_then(|texture| {
-                ReadBack::texture(recording.device, encoder, name, texture, &copied_part)
-            });
-            self.snapshots.push(PendingSnapshot {
-                resource: access.resource,
-                since: since(plan, pass, access),
-                version: access.version + 1,
-                pass,
-                mip,
-                desc: *desc,
-                copied: copied.map(|texels| (copied_part.layers, texels)).map_err(problem),
-                tiles: tiles(plan, pass, access),
-            });
+            self.snapshots.push(PendingSnapshot::new(recording, (pass, access, desc), copied, encoder));
         }
     }
 }
@@ -233,7 +220,7 @@ fn layers(desc: &TextureDesc, part: Subresource, mip: u32) -> Range<u32> {
 }
 
 /// Returns the captured aspect: depth of a combined depth-stencil format, unless the pass writes only the stencil.
-fn aspect(desc: &TextureDesc, part: Subresource) -> wgpu::TextureAspect {
+pub(super) fn aspect(desc: &TextureDesc, part: Subresource) -> wgpu::TextureAspect {
     match part.aspect {
         Aspect::Stencil => wgpu::TextureAspect::StencilOnly,
         _ if desc.format.is_combined_depth_stencil_format() => wgpu::TextureAspect::DepthOnly,
@@ -249,8 +236,41 @@ fn problem(error: Error) -> String {
 }
 
 impl PendingSnapshot {
+    /// Records the copy of a part of a texture after a pass that wrote it.
+    pub(super) fn new(
+        recording: &Recording<'_>,
+        (pass, access, desc): (PassId, &AccessDecl, &TextureDesc),
+        part: TexturePart,
+        encoder: &mut wgpu::CommandEncoder,
+    ) -> Self {
+        let plan = recording.plan;
+        let name = plan.decl.resource_name(access.resource);
+        let copied = recording
+            .texture(access.resource)
+            .and_then(|texture| ReadBack::texture(recording.device, encoder, name, texture, &part));
+        Self {
+            resource: access.resource,
+            since: since(plan, pass, access),
+            version: access.version + 1,
+            pass,
+            mip: part.mip,
+            desc: *desc,
+            copied: copied.map(|texels| (part.layers, texels)).map_err(problem),
+            tiles: tiles(plan, pass, access),
+        }
+    }
+
+    /// Returns whether the texels have arrived, or never will.
+    pub(super) fn is_ready(&self) -> bool {
+        self.copied.as_ref().map_or(true, |(_, texels)| texels.is_ready())
+    }
+
     /// Waits for the texels and decodes them.
-    fn decode(self, device: &wgpu::Device, snapshots: &mut Vec<TextureSnapshot>) -> Result<(), Error> {
+    pub(super) fn decode(
+        self,
+        device: &wgpu::Device,
+        snapshots: &mut Vec<TextureSnapshot>,
+    ) -> Result<(), Error> {
         let size = self.desc.size.mip_level_size(self.mip, self.desc.dimension);
         let full_px = [size.width, size.height];
         let snapshot = |part: Subresource, texels| TextureSnapshot {

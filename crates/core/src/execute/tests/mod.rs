@@ -21,5 +21,6 @@ mod times;
 mod truth;
 mod values;
 mod visit;
+mod watch;
 
 use gpu::{Compute, Draw};

@@ -6,7 +6,7 @@ use super::gpu::{Gpu, Imports};
 use super::graph::Graph;
 use super::interpret::State;
 use crate::test_device::block_on;
-use crate::{Executed, Options, OrderPolicy, Plan};
+use crate::{Executed, Options, OrderPolicy, Plan, ResourceDesc, Watch};
 
 /// One way to run a graph.
 struct Variation {
@@ -26,6 +26,8 @@ enum RecordMode {
     Threads(usize),
     /// The frame is captured.
     Capture,
+    /// A version of a texture is watched, another one in each frame.
+    Watch,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -38,7 +40,7 @@ enum Submission {
     OneByOne,
 }
 
-fn variations() -> [Variation; 8] {
+fn variations() -> [Variation; 9] {
     let plain = || Variation {
         name: "plain",
         options: Options::default(),
@@ -63,6 +65,7 @@ fn variations() -> [Variation; 8] {
         Variation { name: "nothing merged", options: apart, ..plain() },
         Variation { name: "two threads", mode: RecordMode::Threads(2), ..plain() },
         Variation { name: "captured", mode: RecordMode::Capture, ..plain() },
+        Variation { name: "watched", mode: RecordMode::Watch, frames: 4, ..plain() },
     ]
 }
 
@@ -190,6 +193,10 @@ impl Run<'_, '_> {
         let plan = compiled.shared_plan();
         let executed = match self.variation.mode {
             RecordMode::OneEncoder => compiled.execute(self.pool, &self.gpu.device, encoder),
+            RecordMode::Watch => {
+                self.pool.watch(watch(&plan, salt));
+                compiled.execute(self.pool, &self.gpu.device, encoder)
+            }
             RecordMode::Capture => compiled
                 .execute_captured(self.pool, &self.gpu.device, encoder)
                 .map(|(executed, _capture)| executed),
@@ -205,4 +212,21 @@ impl Run<'_, '_> {
         assert_eq!(executed.plan(), &*plan, "the plan is the frame's, however it is recorded");
         Ok((executed, exports))
     }
+}
+
+/// Chooses a version of a texture that the frame writes.
+fn watch(plan: &Plan, salt: u32) -> Option<Watch> {
+    let written: Vec<_> = plan
+        .order()
+        .iter()
+        .flat_map(|&pass| plan.accesses(pass))
+        .filter(|access| {
+            access.contents.is_some()
+                && matches!(plan.resource(access.resource).desc, ResourceDesc::Texture(_))
+        })
+        .map(|access| (access.resource, access.version + 1))
+        .collect();
+    let &(resource, version) = written.get(salt as usize % written.len().max(1))?;
+    let texture = plan.resource_path(resource);
+    Some(Watch { texture, version: Some(version), mip: 0, layer: 0 })
 }
