@@ -134,7 +134,7 @@ impl Example for Animate {
         Ok(Self { renderer, options, end_s })
     }
 
-    fn draw(&mut self, Canvas { gpu, encoder, target, number }: Canvas<'_>) -> Result<(), Failure> {
+    fn draw(&mut self, Canvas { gpu, encoder, target, number, .. }: Canvas<'_>) -> Result<(), Failure> {
         let time_s = f64::from(number) / 12.0 % self.end_s;
         let scene = self.renderer.scene_mut();
         scene.set_time(AnimationSelection::All, time_s)?;

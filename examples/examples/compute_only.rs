@@ -61,7 +61,7 @@ impl Example for Life {
         Ok(Self { graph: Graph::new(), live, show })
     }
 
-    fn draw(&mut self, Canvas { gpu, encoder, target, number }: Canvas<'_>) -> Result<(), Failure> {
+    fn draw(&mut self, Canvas { gpu, encoder, target, number, .. }: Canvas<'_>) -> Result<(), Failure> {
         let mut frame = self.graph.frame();
         // Any pattern works: bits of a multiplied integer.
         let cell = |i: u32| (i + number).wrapping_mul(2_654_435_761) >> 30 & 1;

@@ -48,7 +48,7 @@ impl Example for Day {
         Ok(Self { renderer, options, sun })
     }
 
-    fn draw(&mut self, Canvas { gpu, encoder, target, number }: Canvas<'_>) -> Result<(), Failure> {
+    fn draw(&mut self, Canvas { gpu, encoder, target, number, .. }: Canvas<'_>) -> Result<(), Failure> {
         let day = f64::from(number % Self::FRAMES) / f64::from(Self::FRAMES - 1);
         self.renderer.scene_mut().replace_light(self.sun, sun(day))?;
         self.renderer.record(gpu, encoder, target, &self.options)?;

@@ -88,7 +88,7 @@ impl Example for EditScene {
         Ok(Self { renderer, options, cube, white, changing, boxes: VecDeque::new() })
     }
 
-    fn draw(&mut self, Canvas { gpu, encoder, target, number }: Canvas<'_>) -> Result<(), Failure> {
+    fn draw(&mut self, Canvas { gpu, encoder, target, number, .. }: Canvas<'_>) -> Result<(), Failure> {
         self.edit(number)?;
         self.renderer.record(gpu, encoder, target, &self.options)?;
         Ok(())

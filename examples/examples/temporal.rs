@@ -55,7 +55,7 @@ impl Example for Mean {
         Ok(Self { graph: Graph::new(), accumulate, show, frames: 0 })
     }
 
-    fn draw(&mut self, Canvas { gpu, encoder, target, number }: Canvas<'_>) -> Result<(), Failure> {
+    fn draw(&mut self, Canvas { gpu, encoder, target, number, .. }: Canvas<'_>) -> Result<(), Failure> {
         let desc = TextureDesc::d2(target.width(), target.height(), Format::R32Float);
         let mut frame = self.graph.frame();
         let mut mean = frame.history("mean", desc, Resize::Reset);

@@ -13,7 +13,7 @@ pub(crate) fn run<E: Example>(gpu: &Gpu, arguments: &Arguments) -> Result<(), Fa
     let progress = if frames > 1 { ProgressBar::new(frames.into()) } else { ProgressBar::hidden() };
     for number in 0..frames {
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        example.draw(Canvas { gpu, encoder: &mut encoder, target: &image, number })?;
+        example.draw(Canvas { gpu, encoder: &mut encoder, target: &image, number, server: None })?;
         gpu.queue.submit([encoder.finish()]);
         let file = match E::SEQUENCE {
             true => format!("out/{}/{number:02}.png", E::NAME),

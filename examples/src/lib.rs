@@ -4,9 +4,11 @@
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "examples are programs")]
 
 mod headless;
+mod serve;
 mod window;
 
-use shadowgraph::core::Format;
+use shadowgraph::core::{Compiled, Format, Graph};
+use shadowgraph::inspect::{FrameReport, Server};
 use shadowgraph::options::AdapterChoice;
 use shadowgraph::{Gpu, wgpu};
 use std::process::ExitCode;
@@ -24,6 +26,8 @@ pub trait Example: Sized {
     const FRAMES: u32 = 1;
     /// Whether each frame is written to a file, and not only the last.
     const SEQUENCE: bool = false;
+    /// Whether it executes its frames with [`Canvas::execute`], so that `--serve PORT` shows them on a page.
+    const SERVES: bool = false;
     /// Description of the example's argument; empty if it has none.
     const ARGUMENT: &'static str = "";
 
@@ -50,6 +54,26 @@ pub struct Canvas<'a> {
     pub target: &'a wgpu::Texture,
     /// The number of the frame, from 0.
     pub number: u32,
+    /// Serves a page about the frames with `--serve PORT`.
+    server: Option<&'a mut Server>,
+}
+
+impl Canvas<'_> {
+    /// Executes a frame, and shows it to the page if one is served.
+    ///
+    /// # Errors
+    /// As [`Compiled::execute`].
+    pub fn execute(self, compiled: Compiled<'_>, graph: &mut Graph) -> Result<(), Failure> {
+        let Self { gpu, encoder, server, .. } = self;
+        let Some(server) = server else {
+            compiled.execute(graph, &gpu.device, encoder)?;
+            return Ok(());
+        };
+        server.begin_frame(graph);
+        let mut executed = compiled.execute(graph, &gpu.device, encoder)?;
+        server.end_frame(&gpu.device, &mut executed, &FrameReport { bytes: graph.bytes(), times: &[] });
+        Ok(())
+    }
 }
 
 /// The format of the targets.
@@ -58,6 +82,8 @@ pub const FORMAT: Format = Format::Rgba8UnormSrgb;
 /// The arguments of the command line.
 struct Arguments {
     window: bool,
+    /// The port of a page about the frames.
+    serve: Option<u16>,
     frames: Option<u32>,
     argument: Option<String>,
 }
@@ -66,9 +92,10 @@ struct Arguments {
 pub fn run_example<E: Example>() -> ExitCode {
     let run = || -> Result<(), Failure> {
         let arguments = arguments::<E>(std::env::args().skip(1))?;
-        match arguments.window {
-            true => window::run::<E>(&arguments),
-            false => headless::run::<E>(&Gpu::open(&AdapterChoice::Auto)?, &arguments),
+        match (arguments.window, arguments.serve) {
+            (true, _) => window::run::<E>(&arguments),
+            (false, Some(port)) => serve::run::<E>(&Gpu::open(&AdapterChoice::Auto)?, port, &arguments),
+            (false, None) => headless::run::<E>(&Gpu::open(&AdapterChoice::Auto)?, &arguments),
         }
     };
     let Err(error) = run() else { return ExitCode::SUCCESS };
@@ -77,10 +104,14 @@ pub fn run_example<E: Example>() -> ExitCode {
 }
 
 fn arguments<E: Example>(mut given: impl Iterator<Item = String>) -> Result<Arguments, Failure> {
-    let mut arguments = Arguments { window: false, frames: None, argument: None };
+    let mut arguments = Arguments { window: false, serve: None, frames: None, argument: None };
     while let Some(argument) = given.next() {
         match argument.as_str() {
             "--window" => arguments.window = true,
+            "--serve" if E::SERVES => match given.next().map(|port| port.parse()) {
+                Some(Ok(port)) => arguments.serve = Some(port),
+                _ => return Err("--serve: expected a port, 0 to 65535".into()),
+            },
             "--frames" => match given.next().map(|count| count.parse()) {
                 Some(Ok(frames @ 1..)) => arguments.frames = Some(frames),
                 _ => return Err("--frames: expected an integer above 0".into()),
@@ -88,8 +119,9 @@ fn arguments<E: Example>(mut given: impl Iterator<Item = String>) -> Result<Argu
             _ if E::ARGUMENT.is_empty() || arguments.argument.is_some() || argument.starts_with('-') => {
                 let expected =
                     if E::ARGUMENT.is_empty() { String::new() } else { format!(", and {}", E::ARGUMENT) };
+                let serve = if E::SERVES { ", --serve PORT" } else { "" };
                 return Err(format!(
-                    "unexpected argument `{argument}`; expected --window, --frames N{expected}"
+                    "unexpected argument `{argument}`; expected --window{serve}, --frames N{expected}"
                 )
                 .into());
             }

@@ -135,7 +135,7 @@ impl<E: Example> Screen<E> {
         };
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         let (gpu, target, number) = (&self.gpu, &self.image, self.drawn);
-        self.example.draw(Canvas { gpu, encoder: &mut encoder, target, number })?;
+        self.example.draw(Canvas { gpu, encoder: &mut encoder, target, number, server: None })?;
         let mut frame = self.graph.frame();
         let image = frame.import_texture("image", &self.image, true);
         let mut surface = frame.import_texture("surface", &surface_texture.texture, false);

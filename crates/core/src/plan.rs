@@ -50,7 +50,7 @@ pub struct Plan {
 /// Identifies plans that differ only in clear values: the same objects fit them. It is not part of what a plan says, so plans
 /// with different ones can be equal.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct StructureId(#[cfg_attr(not(feature = "gpu"), expect(dead_code))] u64);
+pub(crate) struct StructureId(u64);
 
 impl StructureId {
     /// Returns a new one.
@@ -59,7 +59,6 @@ impl StructureId {
         Self(NEXT.fetch_add(1, Ordering::Relaxed))
     }
 
-    #[cfg(feature = "gpu")]
     pub(crate) fn is_same(self, other: Self) -> bool {
         self.0 == other.0
     }
@@ -258,6 +257,11 @@ impl Plan {
     /// Returns every declared pass, culled ones too, in order of declaration.
     pub fn passes(&self) -> impl DoubleEndedIterator<Item = (PassId, PassPlan<'_>)> + ExactSizeIterator {
         (0..self.decl.passes.len()).map(|index| PassId(index as u32)).map(|id| (id, self.pass(id)))
+    }
+
+    /// Returns whether two plans differ at most in the values that passes clear textures with.
+    pub fn has_structure_of(&self, other: &Self) -> bool {
+        self.structure.is_same(other.structure) || self == other
     }
 
     /// Returns every declared resource, in order of declaration.

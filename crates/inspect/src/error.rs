@@ -14,6 +14,9 @@ pub enum Error {
     /// A string that is not a dump of a plan, or a dump of another schema version.
     #[error("SG0702: not a valid dump: {problem}")]
     Dump { problem: String },
+    /// An address on which no page can be served.
+    #[error("SG0703: no page can be served on {address}: {problem}")]
+    Serve { address: std::net::SocketAddr, problem: String },
 }
 
 impl Error {
@@ -22,6 +25,7 @@ impl Error {
         match self {
             Self::UnknownName { .. } => "SG0701",
             Self::Dump { .. } => "SG0702",
+            Self::Serve { .. } => "SG0703",
         }
     }
 }

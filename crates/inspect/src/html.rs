@@ -22,6 +22,7 @@ const SCRIPT: &[&str] = &[
     include_str!("html/page/passes.js"),
     include_str!("html/page/textures.js"),
     include_str!("html/page/log.js"),
+    include_str!("html/page/live.js"),
     include_str!("html/page/details.js"),
     include_str!("html/page/main.js"),
 ];
@@ -68,6 +69,15 @@ pub struct HtmlPage<'p> {
     pub drawings: Vec<Drawing>,
     /// Captured contents of textures.
     pub snapshots: Vec<TextureSnapshot>,
+    /// For the page of a running program.
+    live: Option<LivePage>,
+}
+
+/// What the page of a running program knows besides the frame.
+#[derive(Clone, Copy, Serialize)]
+pub(crate) struct LivePage {
+    /// The number of the plan.
+    pub(crate) plan: u32,
 }
 
 /// A table, shown in its own tab.
@@ -85,7 +95,7 @@ impl<'p> HtmlPage<'p> {
     /// Creates a page about a frame.
     pub fn new(plan: &'p Plan) -> Self {
         let (notes, tables, drawings, snapshots) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        Self { plan, title: "Frame".into(), times: &[], notes, tables, drawings, snapshots }
+        Self { plan, title: "Frame".into(), times: &[], notes, tables, drawings, snapshots, live: None }
     }
 
     /// Sets the title of the page.
@@ -98,6 +108,12 @@ impl<'p> HtmlPage<'p> {
     #[must_use]
     pub fn with_times(self, times: &'p [PassTime]) -> Self {
         Self { times, ..self }
+    }
+
+    /// Makes it the page of a running program.
+    #[cfg(feature = "serve")]
+    pub(crate) fn with_live(self, live: LivePage) -> Self {
+        Self { live: Some(live), ..self }
     }
 
     /// Returns the page. The same frame gives the same bytes.
@@ -115,6 +131,12 @@ impl<'p> HtmlPage<'p> {
         ];
         fill(PAGE, &values)
     }
+}
+
+/// Returns the data of a snapshot for the script, as JSON.
+#[cfg(feature = "serve")]
+pub(crate) fn snapshot_json(plan: &Plan, snapshot: &TextureSnapshot) -> String {
+    serde_json::to_string(&snapshot::SnapshotData::new(plan, snapshot)).unwrap_or_default()
 }
 
 /// Escapes text for HTML, in an element or in quotes.

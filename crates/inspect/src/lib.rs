@@ -1,7 +1,8 @@
 //! Shows and compares compiled frames of [`shadowgraph_core`]: an HTML page ([`HtmlPage`]), the differences between two frames ([`diff`],
 //! [`Dump`]), explanations of passes and resources ([`explain`]), the history of a pixel ([`PixelRecorder`]) and times in Chrome's trace format ([`trace_json`]).
 //!
-//! The crate reads plans, captured textures and times. It draws nothing and needs no device.
+//! The crate reads plans, captured textures and times. It draws nothing and needs no device. With the feature `serve`, `Server` shows the frames of a
+//! running program on a page.
 //!
 //! ```
 //! use shadowgraph_core::{Contents, Format, Frame, TextureDesc};
@@ -24,6 +25,8 @@ mod error;
 mod explain;
 mod html;
 mod pixel;
+#[cfg(feature = "serve")]
+mod serve;
 mod trace;
 mod version_image;
 
@@ -35,6 +38,8 @@ pub use html::{Drawing, HtmlPage, Outline, PageTable, to_html};
 pub use pixel::{
     PixelHistory, PixelPass, PixelPlace, PixelRead, PixelRecorder, PixelTexel, PixelWrite, WriteEffect,
 };
+#[cfg(feature = "serve")]
+pub use serve::{Controls, FrameReport, Offered, OfferedValue, PageRequest, Server};
 pub use trace::trace_json;
 pub use version_image::VersionImage;
 

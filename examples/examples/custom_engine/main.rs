@@ -2,7 +2,8 @@
 //! Shadowgraph. Another technique with shadow maps is a change of one line; techniques that read positions and normals need
 //! [`SurfaceBuffers`](shadowgraph::shadows::SurfaceBuffers) too.
 //!
-//! `cargo run -p shadowgraph-examples --example custom_engine` writes out/custom_engine.png; `-- --window` shows it.
+//! `cargo run -p shadowgraph-examples --example custom_engine` writes out/custom_engine.png; `-- --window` shows it, and `-- --serve 9000`
+//! prints the address of a page about its frames.
 
 mod engine;
 mod pipelines;
@@ -34,6 +35,7 @@ struct Tower {
 
 impl Example for Tower {
     const NAME: &'static str = "custom_engine";
+    const SERVES: bool = true;
 
     fn new(gpu: &Gpu, _argument: Option<&str>) -> Result<Self, Failure> {
         // The line that chooses the technique.
@@ -42,7 +44,8 @@ impl Example for Tower {
         Ok(Self { technique, engine, graph: Graph::new() })
     }
 
-    fn draw(&mut self, Canvas { gpu, encoder, target, number }: Canvas<'_>) -> Result<(), Failure> {
+    fn draw(&mut self, canvas: Canvas<'_>) -> Result<(), Failure> {
+        let Canvas { target, number, .. } = canvas;
         let (width, height) = (target.width(), target.height());
         let aspect = f64::from(width) / f64::from(height);
         let eye = glam::DQuat::from_rotation_y(f64::from(number) * 0.02) * DVec3::new(7.0, 5.0, 9.0);
@@ -93,8 +96,8 @@ impl Example for Tower {
             ctx.pass.draw(0..36, 0..engine.boxes.len() as u32);
             Ok(())
         });
-        self.graph.compile(frame)?.execute(&mut self.graph, &gpu.device, encoder)?;
-        Ok(())
+        let compiled = self.graph.compile(frame)?;
+        canvas.execute(compiled, &mut self.graph)
     }
 }
 

@@ -53,7 +53,7 @@ impl Example for Mine {
         Ok(Self { renderers, options })
     }
 
-    fn draw(&mut self, Canvas { gpu, encoder, target, number }: Canvas<'_>) -> Result<(), Failure> {
+    fn draw(&mut self, Canvas { gpu, encoder, target, number, .. }: Canvas<'_>) -> Result<(), Failure> {
         let [first, last] = &mut self.renderers;
         let first = first.record(gpu, encoder, target, &self.options)?;
         let last = last.record(gpu, encoder, target, &self.options)?;

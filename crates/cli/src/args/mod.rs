@@ -203,6 +203,9 @@ pub(crate) struct ViewArgs {
     /// GPU time budget of the shadow passes in milliseconds; while they exceed it, shadow distance and resolution are lowered
     #[arg(long, value_name = "MS", allow_negative_numbers = true)]
     pub(crate) budget_ms: Option<f64>,
+    /// Serve a page about the frames on this port of 127.0.0.1, and print its address; 0 for any free port
+    #[arg(long, value_name = "PORT")]
+    pub(crate) serve: Option<u16>,
 }
 
 /// `shadowgraph nodes`

@@ -74,6 +74,7 @@ impl App {
         let seconds = self.drawn.elapsed().as_secs_f64();
         self.drawn = Instant::now();
         self.stage.reload();
+        let seconds = self.stage.follow_page(seconds);
         self.stage.playback.advance(&self.stage.scene.hierarchy, self.stage.tracks.end_s(), seconds);
         self.stage.move_sun(seconds)?;
         let context = screen.input.egui_ctx();

@@ -2,6 +2,7 @@
 
 mod app;
 mod fly;
+mod live;
 mod panel;
 mod playback;
 mod reload;
@@ -14,12 +15,15 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use app::App;
+use live::Live;
 use stage::Stage;
 use winit::event_loop::EventLoop;
 
 use super::args::ViewArgs;
 use super::commands::{recorded_input, view_options};
+use super::console;
 use super::failure::Failure;
+use shadowgraph::inspect::Server;
 use shadowgraph::{Registry, wgpu};
 
 /// `shadowgraph view`
@@ -31,7 +35,12 @@ pub(crate) fn view(args: &ViewArgs, registry: &Registry) -> Result<(), Failure> 
     let adapter = input.options.adapter.clone();
     let view = view_options(&input)?;
     let size_px = view.size_px;
-    let stage = Stage::new(input, view, registry.clone(), args)?;
+    let mut stage = Stage::new(input, view, registry.clone(), args)?;
+    if let Some(port) = args.serve {
+        let server = Server::start(port, "shadowgraph view")?;
+        console::print(&format!("{}\n", server.url()))?;
+        stage.live = Some(Live::new(server));
+    }
     let mut app = App::new(instance, adapter, size_px, stage, args.record.file.clone());
     run(event_loop, &mut app)?;
     app.end()

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::fly::FlyCamera;
+use super::live::Live;
 use super::playback::Playback;
 use super::reload::Watched;
 use super::sun::Sun;
@@ -66,11 +67,19 @@ pub(super) struct Stage {
     watched_pipeline: Watched,
     watched_shaders: Watched,
     renderer: Option<Renderer>,
+    /// The page about the frames, if it is served.
+    pub(super) live: Option<Live>,
     /// Records frames, if they are, while no renderer does.
     recorder: Option<Recorder>,
     record_mib: Option<u32>,
     /// The last requested renderer and the result, so that a failed one is not tried again.
     created: Option<(RendererKey, Result<(), String>)>,
+}
+
+/// What the page can change.
+pub(super) struct Choices<'s> {
+    pub(super) technique: &'s mut Technique,
+    pub(super) distance_m: &'s mut f32,
 }
 
 /// Parameters of a renderer.
@@ -120,6 +129,7 @@ impl Stage {
             watched_pipeline: Watched::new(args.draw.pipeline_file().map(PathBuf::from)),
             watched_shaders: Watched::new(shaders),
             renderer: None,
+            live: None,
             recorder: input.recorder,
             record_mib: args.record.limit_mib(),
             created: None,
@@ -178,6 +188,13 @@ impl Stage {
                 Err(error) => self.file_error = Some(error.to_string()),
             }
         }
+    }
+
+    /// Follows what the page asks for, and returns the seconds by which the scene advances.
+    pub(super) fn follow_page(&mut self, seconds: f64) -> f64 {
+        let Self { live: Some(live), technique, settings, registry, .. } = self else { return seconds };
+        live.update(&mut Choices { technique, distance_m: &mut settings.distance_m }, registry);
+        live.advance(seconds)
     }
 
     /// Lets the sun move for some seconds, and follows its controls.
@@ -249,20 +266,29 @@ impl Stage {
         if let Err(error) = self.playback.apply([&mut self.scene, renderer.scene_mut()]) {
             self.file_error = Some(error.to_string());
         }
+        if let Some(live) = &mut self.live {
+            if let Some(pixel) = live.take_pixel(options.size_px) {
+                live.answer_pixel(&renderer.pixel_history(gpu, &options, pixel)?.1);
+            }
+            live.begin_frame(&mut renderer.graph());
+        }
         let mut timer = Timer::new();
-        let (plan, counts) = gpu.checked(|| -> Result<_, shadowgraph::Error> {
+        let (mut executed, counts) = gpu.checked(|| -> Result<_, shadowgraph::Error> {
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
             let (executed, counts) =
                 renderer.record_measured(gpu, &mut encoder, target, &options, &mut timer)?;
             gpu.queue.submit([encoder.finish()]);
-            Ok((executed.shared_plan(), counts.wait(&gpu.device)?))
+            Ok((executed, counts.wait(&gpu.device)?))
         })?;
         let times = timer.read(&gpu.device, &gpu.queue)?;
         if let (Some(controller), Some(shadow_ms)) = (&mut self.controller, shadow_ms(&times)) {
             controller.update(shadow_ms);
         }
         self.times.add(&times);
-        self.plan = Some(plan);
+        if let Some(live) = &mut self.live {
+            live.end_frame(gpu, &mut executed, &times, renderer.graph().bytes());
+        }
+        self.plan = Some(executed.shared_plan());
         self.counts = (counts, renderer.casters().scene.instance_count());
         Ok(())
     }

@@ -96,7 +96,7 @@ fn written(plan: &Plan, watch: &Watch) -> Option<(usize, AccessDecl, TextureDesc
         writes.map(move |access| (position, access))
     });
     let wanted = |access: &AccessDecl| watch.version.is_none_or(|version| version == access.version + 1);
-    let (position, access) = writes.filter(|(_, access)| wanted(access) && is_named(access)).last()?;
+    let (position, access) = writes.filter(|(_, access)| wanted(access) && is_named(access)).next_back()?;
     match decl.resource(access.resource).desc {
         ResourceDesc::Texture(desc) => Some((position, *access, desc)),
         ResourceDesc::Buffer(_) => None,

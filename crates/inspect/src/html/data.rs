@@ -1,7 +1,7 @@
 //! The data of the page's script: indices, and each sentence once.
 
 use super::snapshot::SnapshotData;
-use super::{Drawing, HtmlPage, PageTable};
+use super::{Drawing, HtmlPage, LivePage, PageTable};
 use crate::explain::{describe_origin, usages};
 use serde::Serialize;
 use shadowgraph_core::describe::{Positions, shape, verb};
@@ -25,6 +25,8 @@ pub(super) struct FrameData<'p> {
     tables: &'p [PageTable],
     drawings: &'p [Drawing],
     snapshots: Vec<SnapshotData<'p>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    live: Option<LivePage>,
 }
 
 #[derive(Serialize)]
@@ -146,6 +148,7 @@ impl<'p> FrameData<'p> {
             tables: &page.tables,
             drawings: &page.drawings,
             snapshots: page.snapshots.iter().map(|snapshot| SnapshotData::new(plan, snapshot)).collect(),
+            live: page.live,
         }
     }
 }

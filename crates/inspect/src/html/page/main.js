@@ -3,7 +3,7 @@
 // {pass}, {resource} or null.
 let chosen = null;
 
-const VIEWS = [graphView, timelineView, memoryView, passesView, texturesView, logView, ...frame.tables.map(tableView)];
+const VIEWS = [...(frame.live ? [liveView] : []), graphView, timelineView, memoryView, passesView, texturesView, logView, ...frame.tables.map(tableView)];
 const tabs = [];
 const panels = [];
 
@@ -43,7 +43,7 @@ function fromAddress() {
   if (kind === 'resource' && resources[index]) chosen = { resource: index };
   const view = VIEWS.find((known) => known.name.toLowerCase().replaceAll(' ', '-') === name);
   drawDetails();
-  show(view?.name ?? 'Graph');
+  show(view?.name ?? VIEWS[0].name);
   if (chosen) shownView().chosen();
 }
 

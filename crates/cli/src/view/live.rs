@@ -1,0 +1,95 @@
+//! The page about the window's frames: `--serve`.
+
+use shadowgraph::core::{Executed, Graph, PassTime};
+use shadowgraph::inspect::{Controls, FrameReport, Offered, OfferedValue, PageRequest, PixelHistory, Server};
+use shadowgraph::{Gpu, Registry};
+
+use super::stage::Choices;
+
+/// The names of the settings on the page.
+const TECHNIQUE: &str = "technique";
+const DISTANCE: &str = "shadow distance, m";
+
+/// Seconds that a step advances.
+const STEP_S: f64 = 1.0 / 60.0;
+
+/// The server of the page, and what pages have asked for.
+pub(super) struct Live {
+    server: Server,
+    is_frozen: bool,
+    /// Steps to take while it is frozen.
+    steps: u32,
+    /// The pixel whose history is wanted.
+    pixel: Option<[u32; 2]>,
+}
+
+impl Live {
+    pub(super) fn new(server: Server) -> Self {
+        Self { server, is_frozen: false, steps: 0, pixel: None }
+    }
+
+    /// Returns the seconds by which the scene advances in a frame that took some.
+    pub(super) fn advance(&mut self, seconds: f64) -> f64 {
+        match (self.is_frozen, self.steps) {
+            (false, _) => seconds,
+            (true, 0) => 0.0,
+            (true, _) => {
+                self.steps -= 1;
+                STEP_S
+            }
+        }
+    }
+
+    /// Follows what pages have asked for, and offers what they can change.
+    pub(super) fn update(&mut self, choices: &mut Choices<'_>, registry: &Registry) {
+        for request in self.server.take_requests() {
+            match request {
+                PageRequest::Freeze(freeze) => (self.is_frozen, self.steps) = (freeze, 0),
+                PageRequest::Step(_) => (self.is_frozen, self.steps) = (true, self.steps + 1),
+                PageRequest::Pixel(pixel) => self.pixel = Some(pixel),
+                PageRequest::Choose { value, .. } => {
+                    if let Ok(technique) = registry.techniques.find(&value) {
+                        *choices.technique = technique;
+                    }
+                }
+                PageRequest::Set { value, .. } => *choices.distance_m = value as f32,
+                PageRequest::Record(_) => {}
+            }
+        }
+        let chosen = choices.technique.name();
+        let mut all: Vec<String> =
+            registry.techniques.kinds().iter().map(|kind| kind.name.to_string()).collect();
+        if !all.contains(&chosen) {
+            all.push(chosen.clone());
+        }
+        let technique = OfferedValue::Choice { chosen, all };
+        let value = f64::from(*choices.distance_m);
+        let distance = OfferedValue::Number { value, min: 1.0, max: 10_000.0 };
+        self.server.offer(Controls {
+            freeze: Some(self.is_frozen),
+            record: None,
+            pixel: true,
+            settings: vec![
+                Offered { name: TECHNIQUE.into(), value: technique },
+                Offered { name: DISTANCE.into(), value: distance },
+            ],
+        });
+    }
+
+    /// Returns the pixel whose history is wanted, once, if the image has it.
+    pub(super) fn take_pixel(&mut self, [width, height]: [u32; 2]) -> Option<[u32; 2]> {
+        self.pixel.take().filter(|[x, y]| *x < width && *y < height)
+    }
+
+    pub(super) fn answer_pixel(&mut self, history: &PixelHistory) {
+        self.server.answer_pixel(history);
+    }
+
+    pub(super) fn begin_frame(&mut self, graph: &mut Graph) {
+        self.server.begin_frame(graph);
+    }
+
+    pub(super) fn end_frame(&mut self, gpu: &Gpu, executed: &mut Executed, times: &[PassTime], bytes: u64) {
+        self.server.end_frame(&gpu.device, executed, &FrameReport { times, bytes });
+    }
+}
