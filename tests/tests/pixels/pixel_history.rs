@@ -43,8 +43,10 @@ fn what_a_pass_of_the_history_reads_is_what_an_earlier_one_wrote() {
     let options = ViewOptions { size_px: [160, 90], ..view(scene.cameras[0].clone(), 60.0) };
     let mut renderer = Renderer::new(gpu, scene, &options.camera, Aov::Color).unwrap();
     let mut random = Random::new(1);
-    for _ in 0..4 {
-        let pixel = [random.below(160) as u32, random.below(90) as u32];
+    // The last one is that of hills far away.
+    for number in 0..5 {
+        let random = [random.below(160) as u32, random.below(90) as u32];
+        let pixel = if number == 4 { [4, 40] } else { random };
         let history = history(gpu, &mut renderer, &options, pixel);
         let mut written = BTreeMap::new();
         for pass in history.passes.iter().rev() {
@@ -58,6 +60,11 @@ fn what_a_pass_of_the_history_reads_is_what_an_earlier_one_wrote() {
         }
         let passes: Vec<_> = history.passes.iter().map(|pass| pass.pass.as_str()).collect();
         assert_eq!(passes[..2], ["smooth/fxaa", "tonemap/tonemap"]);
+        for write in history.passes.iter().flat_map(|pass| &pass.writes) {
+            if write.texture == "geometry/depth" && write.effect == WriteEffect::Cleared {
+                assert_eq!(write.after[0].value, [0.0], "{pixel:?}");
+            }
+        }
         let is_sky = history
             .passes
             .iter()

@@ -13,7 +13,7 @@ use std::time::Duration;
 const LIMITS: Limits = Limits { time: Duration::from_secs(180), memory_bytes: 4 << 30 };
 
 /// Returns the path of a built example.
-fn example(name: &str) -> PathBuf {
+pub(super) fn example(name: &str) -> PathBuf {
     static BUILT: OnceLock<Vec<PathBuf>> = OnceLock::new();
     let built = BUILT.get_or_init(build);
     let is_named = |path: &&PathBuf| path.file_stem().is_some_and(|stem| stem == name);

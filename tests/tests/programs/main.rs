@@ -8,6 +8,7 @@ mod examples;
 mod first_image;
 mod fly;
 mod hashes;
+mod live_page;
 mod measure;
 mod nodes;
 mod pages;

@@ -2,6 +2,7 @@
 
 mod window;
 
+use crate::live_page::{Page, Serving, watch};
 use shadowgraph_tests::animated::{SKINNED, add_floor_and_camera};
 use shadowgraph_tests::{program, repository};
 use std::process::Command;
@@ -299,4 +300,37 @@ fn row_43_the_end_of_a_cascade_is_dragged_in_the_window() {
     if let Some(dir) = shadowgraph_tests::images() {
         window.save(dir.join("splits_and_lights.png")).unwrap();
     }
+}
+
+#[test]
+fn the_window_is_watched_on_a_page_that_changes_the_technique() {
+    let Some(display) = Display::open() else { return };
+    let mut command = Command::new(program().unwrap());
+    command.args([
+        "view",
+        "--size",
+        "640x360",
+        "--adapter",
+        "cpu",
+        "--pipeline",
+        "minimal_lit",
+        "--serve",
+        "0",
+    ]);
+    let serving = Serving::start(command.env("DISPLAY", &display.name).env_remove("WAYLAND_DISPLAY"));
+    let Some(mut page) = Page::open(&serving.url) else { return };
+    watch(&mut page, "lighting/lit");
+    page.value("liveView.ask({ pixel: [40, 100] })");
+    page.until("liveView.history.textContent.includes('lighting/forward')");
+    page.until("liveView.frames.length > 40");
+    page.keep("live.png");
+    page.value("liveView.ask({ choose: { name: 'technique', value: 'none' } })");
+    page.until("liveView.controls.settings[0].value.choice.chosen === 'none'");
+    // The page of the new plan, once there is one, watches the same texture.
+    let is_new = "passes.every((pass) => !pass.name.startsWith('cascade'))";
+    page.until(&format!(
+        "{is_new} || (liveView.frames.length > 3 && !liveView.other.hidden && liveView.leave(''))"
+    ));
+    page.until("liveView.textures > 0 && liveView.wanted.texture === 'lighting/lit'");
+    page.close();
 }

@@ -21,8 +21,8 @@ use crate::error::Error;
 use crate::pixel::PixelHistory;
 use shared::{Arrived, PlanNumber, Shared, Tick};
 
-/// Textures are copied this often, or with every frame if frames take longer.
-const INTERVAL: Duration = Duration::from_millis(100);
+/// Textures are copied this often, more than ten times a second, or with every frame if frames take longer.
+const INTERVAL: Duration = Duration::from_millis(90);
 
 /// Serves a page about the frames of a running program: its graph, times, memory, and any texture while it changes.
 ///
@@ -64,8 +64,8 @@ pub struct Server {
     encoding: Option<(SyncSender<Arrived>, JoinHandle<()>)>,
     /// The watched texture that has not arrived yet, and the plan of its frame.
     pending: Option<(PendingTexture, Arc<Plan>)>,
-    /// When the last copy was made.
-    copied: Option<Instant>,
+    /// When the next copy is due.
+    next_copy: Instant,
     /// Whether the graph watches what the page shows.
     is_watching: bool,
     plan: Option<(Arc<Plan>, PlanNumber)>,
@@ -120,7 +120,7 @@ impl Server {
             accepting: Some(accepting),
             encoding: Some((sender, encoding)),
             pending: None,
-            copied: None,
+            next_copy: Instant::now(),
             is_watching: false,
             plan: None,
             last_frame: None,
@@ -152,11 +152,13 @@ impl Server {
 
     /// Lets the graph copy the texture that a page shows, if it is time. Call it before a frame is executed.
     pub fn begin_frame(&mut self, graph: &mut Graph) {
-        let is_due = self.copied.is_none_or(|copied| copied.elapsed() >= INTERVAL);
-        let watch = match self.viewers() > 0 && self.pending.is_none() && is_due {
+        let watch = match self.viewers() > 0 && self.pending.is_none() && Instant::now() >= self.next_copy {
             true => self.shared.watch(),
             false => None,
         };
+        if watch.is_some() {
+            self.next_copy = (self.next_copy + INTERVAL).max(Instant::now());
+        }
         if watch.is_some() || self.is_watching {
             self.is_watching = watch.is_some();
             graph.watch(watch);
@@ -174,7 +176,6 @@ impl Server {
             return;
         }
         if let Some(texture) = executed.take_watched() {
-            self.copied = Some(now);
             self.pending = Some((texture, executed.shared_plan()));
         }
         if let Some((texture, plan)) = self.pending.take_if(|(texture, _)| texture.is_ready())

@@ -30,12 +30,18 @@ const FLAGS: [&str; 14] = [
 /// The largest size of a page without images.
 const MOST_BYTES: usize = 1 << 20;
 
+/// Returns the name of a browser; `None` without one.
+pub(super) fn browser() -> Option<&'static str> {
+    let found = BROWSERS.into_iter().find(|name| on_path(name));
+    if found.is_none() {
+        skip("pages", "no Chromium is installed");
+    }
+    found
+}
+
 /// Opens a page with the driver appended, and returns the driver's results; `None` without a browser.
 fn used(page: &str) -> Option<Value> {
-    let Some(browser) = BROWSERS.into_iter().find(|name| on_path(name)) else {
-        skip("pages", "no Chromium is installed");
-        return None;
-    };
+    let browser = browser()?;
     let dir = tempfile::tempdir().unwrap();
     let file = dir.path().join("page.html");
     let driver = format!("<script>\n{}</script>\n</body>", include_str!("driver.js"));

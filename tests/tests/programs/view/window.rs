@@ -19,7 +19,7 @@ const TIMEOUT: Duration = Duration::from_secs(120);
 /// A virtual display.
 pub(super) struct Display {
     server: Child,
-    name: String,
+    pub(super) name: String,
 }
 
 impl Display {

@@ -1,8 +1,6 @@
 // A running program: times and memory of its last frames, what it offers to change, and a texture while it changes.
 
 const SHOWN_FRAMES = 600;
-// A page follows the program to another plan if that stays for so long, milliseconds.
-const FOLLOW_AFTER = 1000;
 
 const liveView = {
   name: 'Live',
@@ -14,7 +12,8 @@ const liveView = {
   build(panel) {
     this.state = h('span', { class: 'hint', role: 'status' }, 'connecting');
     this.buttons = h('span', { class: 'controls' });
-    this.other = h('span', { class: 'hint', hidden: true });
+    this.otherText = h('span');
+    this.other = h('span', { class: 'hint', hidden: true }, this.otherText, h('button', { onclick: () => this.leave('') }, 'Show what it draws'));
     this.strip = h('canvas', { class: 'strip', width: SHOWN_FRAMES, height: 70, role: 'img', 'aria-label': 'Times of the last frames', ...hint('Bars: milliseconds from frame to frame, one colour for each plan; click a bar to see its plan. Line: memory.'), onclick: (event) => this.openPlan(event) });
     this.numbers = h('span', { class: 'value' });
     this.value = h('span', { class: 'value', 'aria-live': 'off' });
@@ -59,7 +58,7 @@ const liveView = {
   },
 
   send(message) {
-    if (this.socket.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(message));
+    if (this.socket?.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(message));
   },
 
   ask(request) { this.send({ request }); },
@@ -104,22 +103,17 @@ const liveView = {
     this.numbers.textContent = `frame ${last.number}, plan ${last.plan}: ${median.toFixed(1)} ms (median of ${recent.length}), ${bytes(last.bytes)}`;
     this.state.textContent = 'connected';
     this.drawStrip();
-    this.follow(last);
+    this.compare(last);
     if (last.plan === frame.live.plan && times.length === order.length) {
       order.forEach((pass, at) => { passes[pass].time = { ...passes[pass].time, cpu_ms: times[at][0], gpu_ms: times[at][1] }; });
       if (shownView() === passesView) passesView.draw();
     }
   },
 
-  // Shows the plan of the program, unless another one was chosen.
-  follow(last) {
-    if (last.plan === frame.live.plan) this.followed = performance.now();
-    const isOther = last.plan !== frame.live.plan;
-    this.other.hidden = !isOther;
-    if (!isOther) return;
-    const chosen = location.search !== '';
-    this.other.replaceChildren(`The program draws plan ${last.plan}; this page shows plan ${frame.live.plan}. `, h('button', { onclick: () => this.leave('') }, 'Show what it draws'));
-    if (!chosen && performance.now() - (this.followed ??= performance.now()) > FOLLOW_AFTER) this.leave('');
+  // Says where the program draws another plan: moving casters make plans alternate, so the page stays at its own.
+  compare(last) {
+    this.other.hidden = last.plan === frame.live.plan;
+    this.otherText.textContent = `The program draws plan ${last.plan}; the other views show plan ${frame.live.plan}. `;
   },
 
   // Loads the page of another plan, with the same view and texture.
