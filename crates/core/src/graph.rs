@@ -39,9 +39,9 @@ pub struct Graph {
     #[cfg(feature = "gpu")]
     pub(crate) value_pipelines: Option<crate::internal::ValueChecks>,
     #[cfg(feature = "gpu")]
-    pub(crate) watch: Option<crate::watch::Watch>,
+    pub(crate) watch: Option<crate::watch::WatchedTexture>,
     #[cfg(feature = "gpu")]
-    pub(crate) watched_plan: Option<crate::execute::WatchedPlan>,
+    pub(crate) watched_plan: Option<crate::watch::WatchedPlan>,
 }
 
 impl Graph {
@@ -148,11 +148,11 @@ impl Graph {
     /// does not write the version is recorded as usual, and so is one whose [values are checked](Self::check_values).
     ///
     /// ```
-    /// use shadowgraph_core::{Contents, Format, Graph, TextureDesc, Watch};
+    /// use shadowgraph_core::{Contents, Format, Graph, TextureDesc, WatchedTexture};
     /// # use shadowgraph_core::wgpu;
     /// # let (device, queue) = wgpu::Device::noop(&Default::default());
     /// let mut graph = Graph::new();
-    /// graph.watch(Some(Watch::last("color")));
+    /// graph.watch(Some(WatchedTexture::last("color")));
     /// let mut frame = graph.frame();
     /// let mut color = frame.create_texture("color", TextureDesc::d2(64, 64, Format::Rgba16Float));
     /// frame.render_pass("draw").color(&mut color, Contents::clear_color([0.5; 4]));
@@ -167,7 +167,7 @@ impl Graph {
     /// # Ok::<(), shadowgraph_core::Error>(())
     /// ```
     #[cfg(feature = "gpu")]
-    pub fn watch(&mut self, watch: Option<crate::watch::Watch>) {
+    pub fn watch(&mut self, watch: Option<crate::watch::WatchedTexture>) {
         self.watch = watch;
     }
 

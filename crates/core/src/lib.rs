@@ -129,7 +129,7 @@ pub use timer::Timer;
 pub use times::{PassTime, TimeHistory, TimeStats, TimeSummary};
 pub use values::{BadValues, Texel, ValueCheck, ValueReport};
 #[cfg(feature = "gpu")]
-pub use watch::Watch;
+pub use watch::WatchedTexture;
 #[cfg(feature = "gpu")]
 pub use wgpu;
 pub use wgpu_types::{BufferUsages, TextureUsages};

@@ -2,9 +2,8 @@
 
 use shadowgraph::core::{Executed, Graph, PassTime};
 use shadowgraph::inspect::{Controls, FrameReport, Offered, OfferedValue, PageRequest, PixelHistory, Server};
+use shadowgraph::shadows::Technique;
 use shadowgraph::{Gpu, Registry};
-
-use super::stage::Choices;
 
 /// The names of the settings on the page.
 const TECHNIQUE: &str = "technique";
@@ -13,7 +12,13 @@ const DISTANCE: &str = "shadow distance, m";
 /// Seconds that a step advances.
 const STEP_S: f64 = 1.0 / 60.0;
 
-/// The server of the page, and what pages have asked for.
+/// What the page can change.
+pub(super) struct Adjustable<'s> {
+    pub(super) technique: &'s mut Technique,
+    pub(super) distance_m: &'s mut f32,
+}
+
+/// The server of the page, and the requests of pages that wait.
 pub(super) struct Live {
     server: Server,
     is_frozen: bool,
@@ -40,8 +45,8 @@ impl Live {
         }
     }
 
-    /// Follows what pages have asked for, and offers what they can change.
-    pub(super) fn update(&mut self, choices: &mut Choices<'_>, registry: &Registry) {
+    /// Follows the requests of pages, and offers what they can change.
+    pub(super) fn update(&mut self, adjustable: &mut Adjustable<'_>, registry: &Registry) {
         for request in self.server.take_requests() {
             match request {
                 PageRequest::Freeze(freeze) => (self.is_frozen, self.steps) = (freeze, 0),
@@ -49,21 +54,21 @@ impl Live {
                 PageRequest::Pixel(pixel) => self.pixel = Some(pixel),
                 PageRequest::Choose { value, .. } => {
                     if let Ok(technique) = registry.techniques.find(&value) {
-                        *choices.technique = technique;
+                        *adjustable.technique = technique;
                     }
                 }
-                PageRequest::Set { value, .. } => *choices.distance_m = value as f32,
+                PageRequest::Set { value, .. } => *adjustable.distance_m = value as f32,
                 PageRequest::Record(_) => {}
             }
         }
-        let chosen = choices.technique.name();
+        let chosen = adjustable.technique.name();
         let mut all: Vec<String> =
             registry.techniques.kinds().iter().map(|kind| kind.name.to_string()).collect();
         if !all.contains(&chosen) {
             all.push(chosen.clone());
         }
         let technique = OfferedValue::Choice { chosen, all };
-        let value = f64::from(*choices.distance_m);
+        let value = f64::from(*adjustable.distance_m);
         let distance = OfferedValue::Number { value, min: 1.0, max: 10_000.0 };
         self.server.offer(Controls {
             freeze: Some(self.is_frozen),

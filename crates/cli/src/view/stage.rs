@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::fly::FlyCamera;
-use super::live::Live;
+use super::live::{Adjustable, Live};
 use super::playback::Playback;
 use super::reload::Watched;
 use super::sun::Sun;
@@ -74,12 +74,6 @@ pub(super) struct Stage {
     record_mib: Option<u32>,
     /// The last requested renderer and the result, so that a failed one is not tried again.
     created: Option<(RendererKey, Result<(), String>)>,
-}
-
-/// What the page can change.
-pub(super) struct Choices<'s> {
-    pub(super) technique: &'s mut Technique,
-    pub(super) distance_m: &'s mut f32,
 }
 
 /// Parameters of a renderer.
@@ -193,7 +187,7 @@ impl Stage {
     /// Follows what the page asks for, and returns the seconds by which the scene advances.
     pub(super) fn follow_page(&mut self, seconds: f64) -> f64 {
         let Self { live: Some(live), technique, settings, registry, .. } = self else { return seconds };
-        live.update(&mut Choices { technique, distance_m: &mut settings.distance_m }, registry);
+        live.update(&mut Adjustable { technique, distance_m: &mut settings.distance_m }, registry);
         live.advance(seconds)
     }
 
@@ -293,7 +287,7 @@ impl Stage {
         Ok(())
     }
 
-    /// Creates the renderer for the current choices. On failure the previous one stays, with its image.
+    /// Creates the renderer for the current adjustable. On failure the previous one stays, with its image.
     fn update_renderer(&mut self, gpu: &Gpu) -> Result<(), shadowgraph::Error> {
         let key = (self.technique, self.pipeline.clone(), self.aov.clone());
         if let Some((_, created)) = self.created.as_ref().filter(|(last, _)| *last == key) {

@@ -24,7 +24,6 @@ pub use checked::FailedFrame;
 pub use read_back::{ReadBack, ReadBackRequest};
 pub use values::PendingValues;
 pub use watch::PendingTexture;
-pub(crate) use watch::WatchedPlan;
 
 use crate::compiled::Compiled;
 use crate::error::Error;

@@ -16,7 +16,7 @@ use crate::plan::Plan;
 use crate::pool::Pool;
 use crate::subresource::Subresource;
 use crate::timer::Timer;
-use crate::watch::Watch;
+use crate::watch::{WatchedPlan, WatchedTexture};
 use std::sync::Arc;
 
 /// A watched texture on its way to the CPU.
@@ -40,18 +40,11 @@ impl PendingTexture {
     }
 }
 
-/// The plan of frames with a watch, and what it was made of.
-pub(crate) struct WatchedPlan {
-    plan: Arc<Plan>,
-    watch: Watch,
-    watching: Arc<Plan>,
-}
-
 /// Records a frame, and a copy of the watched version if the frame writes it.
 pub(super) fn record_watched(
     mut compiled: Compiled<'_>,
     (pool, known): (&mut Pool, &mut Option<WatchedPlan>),
-    watch: &Watch,
+    watch: &WatchedTexture,
     (device, encoder): (&wgpu::Device, &mut wgpu::CommandEncoder),
     timer: Option<&mut Timer>,
 ) -> Result<Executed, Error> {
@@ -85,18 +78,18 @@ pub(super) fn record_watched(
 }
 
 /// Returns the position of the pass that writes the watched version, and its access to the texture.
-fn written(plan: &Plan, watch: &Watch) -> Option<(usize, AccessDecl, TextureDesc)> {
+fn written(plan: &Plan, watch: &WatchedTexture) -> Option<(usize, AccessDecl, TextureDesc)> {
     let decl = &plan.decl;
     let is_named = |access: &AccessDecl| {
         decl.resource_name(access.resource) == watch.texture
             || plan.resource_path(access.resource) == watch.texture
     };
-    let writes = plan.order.iter().enumerate().flat_map(|(position, &pass)| {
+    let mut writes = plan.order.iter().enumerate().flat_map(|(position, &pass)| {
         let writes = decl.accesses(pass).iter().filter(|access| access.contents.writes());
         writes.map(move |access| (position, access))
     });
     let wanted = |access: &AccessDecl| watch.version.is_none_or(|version| version == access.version + 1);
-    let (position, access) = writes.filter(|(_, access)| wanted(access) && is_named(access)).next_back()?;
+    let (position, access) = writes.rfind(|(_, access)| wanted(access) && is_named(access))?;
     match decl.resource(access.resource).desc {
         ResourceDesc::Texture(desc) => Some((position, *access, desc)),
         ResourceDesc::Buffer(_) => None,

@@ -17,11 +17,11 @@ const CONNECTIONS: usize = 32;
 /// The longest head of a request, bytes.
 const HEAD_BYTES: usize = 8192;
 /// A head must arrive within this time, and a page must be read within it.
-const PATIENCE: Duration = Duration::from_secs(3);
+const TIMEOUT: Duration = Duration::from_secs(3);
 /// How often the listener looks for connections.
 const ACCEPT_EVERY: Duration = Duration::from_millis(10);
 
-/// Answers connections until the server stops. Each has a thread of its own.
+/// Serves connections until the server stops. Each runs on a separate thread.
 pub(super) fn accept(listener: &TcpListener, shared: &Arc<Shared>) {
     let open = Arc::new(AtomicUsize::new(0));
     while !shared.is_stopped() {
@@ -45,11 +45,11 @@ pub(super) fn accept(listener: &TcpListener, shared: &Arc<Shared>) {
     }
 }
 
-/// Answers one request.
+/// Serves one request.
 fn answer(mut stream: TcpStream, shared: &Shared) -> std::io::Result<()> {
     stream.set_nonblocking(false)?;
     stream.set_nodelay(true)?;
-    stream.set_write_timeout(Some(PATIENCE))?;
+    stream.set_write_timeout(Some(TIMEOUT))?;
     let (request, rest) = match read_head(&mut stream)? {
         Ok(read) => read,
         Err(Refusal(status, reason)) => return refuse(&mut stream, status, reason),
@@ -86,7 +86,7 @@ fn read_head(stream: &mut TcpStream) -> std::io::Result<Result<(Request, Vec<u8>
     let begun = Instant::now();
     let mut bytes = Vec::new();
     loop {
-        let left = PATIENCE.saturating_sub(begun.elapsed());
+        let left = TIMEOUT.saturating_sub(begun.elapsed());
         if left.is_zero() {
             return Ok(Err(Refusal("408 Request Timeout", "the request takes too long")));
         }

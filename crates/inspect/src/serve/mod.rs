@@ -145,7 +145,7 @@ impl Server {
         self.shared.offer(controls);
     }
 
-    /// Returns what pages have asked for since the last call, of what is offered, in order.
+    /// Returns the requests of pages since the last call, for what is offered, in order.
     pub fn take_requests(&mut self) -> Vec<PageRequest> {
         self.shared.take_requests()
     }
@@ -189,7 +189,7 @@ impl Server {
         self.shared.add_frame(tick, report.times);
     }
 
-    /// Answers [`PageRequest::Pixel`].
+    /// Shows the history that a [`PageRequest::Pixel`] is for.
     pub fn answer_pixel(&mut self, history: &PixelHistory) {
         self.shared.set_pixel(history);
     }

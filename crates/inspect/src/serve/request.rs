@@ -1,7 +1,7 @@
 //! What pages ask for.
 
 use serde::Deserialize;
-use shadowgraph_core::Watch;
+use shadowgraph_core::WatchedTexture;
 
 use super::controls::{Controls, OfferedValue};
 
@@ -73,7 +73,7 @@ pub(super) struct WatchMessage {
     layer: u32,
 }
 
-impl From<WatchMessage> for Watch {
+impl From<WatchMessage> for WatchedTexture {
     fn from(message: WatchMessage) -> Self {
         let WatchMessage { texture, version, mip, layer } = message;
         Self { texture, version, mip, layer }

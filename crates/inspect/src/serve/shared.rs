@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use serde::Serialize;
-use shadowgraph_core::{PassTime, PendingTexture, Plan, Watch, wgpu};
+use shadowgraph_core::{PassTime, PendingTexture, Plan, WatchedTexture, wgpu};
 
 use super::controls::Controls;
 use super::request::PageRequest;
@@ -56,7 +56,7 @@ struct State {
     current: PlanNumber,
     ticks: VecDeque<Tick>,
     times: Arc<Vec<PassTime>>,
-    watch: Option<Watch>,
+    watch: Option<WatchedTexture>,
     controls: Controls,
     requests: VecDeque<PageRequest>,
     /// Messages that replace earlier ones of their kind, with the number of changes: controls, texture, pixel.
@@ -161,11 +161,11 @@ impl Shared {
         Ok(())
     }
 
-    pub(super) fn watch(&self) -> Option<Watch> {
+    pub(super) fn watch(&self) -> Option<WatchedTexture> {
         self.state().watch.clone()
     }
 
-    pub(super) fn set_watch(&self, watch: Option<Watch>) {
+    pub(super) fn set_watch(&self, watch: Option<WatchedTexture>) {
         self.state().watch = watch;
     }
 

@@ -1,5 +1,5 @@
 //! Pages, and requests that are none, against a program that draws on a device that draws nothing.
-#![allow(clippy::unwrap_used, reason = "tests")]
+#![allow(clippy::unwrap_used, clippy::panic, reason = "tests")]
 
 use super::*;
 use serde_json::{Value, json};
@@ -10,7 +10,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use tungstenite::client::IntoClientRequest;
 use tungstenite::{Message, WebSocket, client};
 
-/// A program that draws frames on a thread of its own until it is dropped.
+/// A program that draws frames on a separate thread until it is dropped.
 struct Program {
     url: String,
     address: SocketAddr,

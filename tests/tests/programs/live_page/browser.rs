@@ -13,7 +13,7 @@ use tungstenite::{Message, WebSocket, client};
 use crate::pages::browser;
 
 /// How long the page may take for anything.
-const PATIENCE: Duration = Duration::from_secs(60);
+const TIMEOUT: Duration = Duration::from_secs(60);
 
 pub(crate) struct Page {
     browser: Child,
@@ -44,7 +44,7 @@ impl Page {
         std::thread::spawn(move || lines.for_each(drop));
         let address = line.split("ws://").nth(1).and_then(|rest| rest.split('/').next()).unwrap();
         let stream = TcpStream::connect(address).unwrap();
-        stream.set_read_timeout(Some(PATIENCE)).unwrap();
+        stream.set_read_timeout(Some(TIMEOUT)).unwrap();
         let (socket, _) = client(target(address), stream).unwrap();
         let mut page = Self { browser, socket, sent: 0, faults: Vec::new(), _data: data };
         for method in ["Runtime.enable", "Log.enable"] {
@@ -85,7 +85,7 @@ impl Page {
         let holds =
             format!("(() => {{ try {{ return Boolean({expression}); }} catch {{ return false; }} }})()");
         while self.value(&holds) != true {
-            assert!(begun.elapsed() < PATIENCE, "waited too long for {expression}");
+            assert!(begun.elapsed() < TIMEOUT, "waited too long for {expression}");
             std::thread::sleep(Duration::from_millis(50));
         }
     }
@@ -136,7 +136,7 @@ fn target(address: &str) -> String {
         if let Some(url) = pages.next().and_then(|page| page["webSocketDebuggerUrl"].as_str()) {
             return url.to_owned();
         }
-        assert!(begun.elapsed() < PATIENCE, "no page: {answer}");
+        assert!(begun.elapsed() < TIMEOUT, "no page: {answer}");
         std::thread::sleep(Duration::from_millis(100));
     }
 }

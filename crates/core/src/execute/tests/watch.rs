@@ -3,7 +3,7 @@
 use super::gpu::Gpu;
 use crate::capture::TextureSnapshot;
 use crate::test_device::valid;
-use crate::{Contents, Format, Frame, Graph, Subresource, TextureDesc, Watch};
+use crate::{Contents, Format, Frame, Graph, Subresource, TextureDesc, WatchedTexture};
 
 fn gray(value: f64) -> Contents {
     Contents::clear_color([value; 4])
@@ -32,7 +32,7 @@ fn declare<'f>(frame: &mut Frame<'f>) {
 }
 
 /// Draws the frame twice, with the plan of the first in the second, and returns what was watched.
-fn watched(gpu: &Gpu, watch: Option<Watch>) -> Option<TextureSnapshot> {
+fn watched(gpu: &Gpu, watch: Option<WatchedTexture>) -> Option<TextureSnapshot> {
     let mut graph = Graph::new();
     graph.watch(watch);
     let mut last = None;
@@ -66,7 +66,7 @@ fn a_watched_version_is_the_one_that_a_capture_shows() {
         assert_eq!(captured.len(), 3 + 3 + 4);
         for snapshot in captured {
             let part = snapshot.subresource;
-            let watch = Watch {
+            let watch = WatchedTexture {
                 texture: executed.plan().resource_path(snapshot.resource),
                 version: Some(snapshot.version),
                 mip: part.mips.map_or(0, |(mip, _)| mip),
@@ -80,13 +80,18 @@ fn a_watched_version_is_the_one_that_a_capture_shows() {
 #[test]
 fn without_a_version_the_last_one_is_watched_and_missing_ones_are_not() {
     for gpu in Gpu::all() {
-        let last = watched(&gpu, Some(Watch::last("scene"))).unwrap();
+        let last = watched(&gpu, Some(WatchedTexture::last("scene"))).unwrap();
         assert_eq!((last.version, last.full_px), (3, [8, 8]));
         assert!(watched(&gpu, None).is_none());
-        assert!(watched(&gpu, Some(Watch::last("sky"))).is_none());
-        assert!(watched(&gpu, Some(Watch { version: Some(4), ..Watch::last("scene") })).is_none());
-        for beyond in [Watch { mip: 2, ..Watch::last("layers") }, Watch { layer: 2, ..Watch::last("layers") }]
-        {
+        assert!(watched(&gpu, Some(WatchedTexture::last("sky"))).is_none());
+        assert!(
+            watched(&gpu, Some(WatchedTexture { version: Some(4), ..WatchedTexture::last("scene") }))
+                .is_none()
+        );
+        for beyond in [
+            WatchedTexture { mip: 2, ..WatchedTexture::last("layers") },
+            WatchedTexture { layer: 2, ..WatchedTexture::last("layers") },
+        ] {
             let snapshot = watched(&gpu, Some(beyond)).unwrap();
             assert!(snapshot.texels.is_err(), "{snapshot:?}");
         }

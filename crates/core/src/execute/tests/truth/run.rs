@@ -6,7 +6,7 @@ use super::gpu::{Gpu, Imports};
 use super::graph::Graph;
 use super::interpret::State;
 use crate::test_device::block_on;
-use crate::{Executed, Options, OrderPolicy, Plan, ResourceDesc, Watch};
+use crate::{Executed, Options, OrderPolicy, Plan, ResourceDesc, WatchedTexture};
 
 /// One way to run a graph.
 struct Variation {
@@ -215,7 +215,7 @@ impl Run<'_, '_> {
 }
 
 /// Chooses a version of a texture that the frame writes.
-fn watch(plan: &Plan, salt: u32) -> Option<Watch> {
+fn watch(plan: &Plan, salt: u32) -> Option<WatchedTexture> {
     let written: Vec<_> = plan
         .order()
         .iter()
@@ -228,5 +228,5 @@ fn watch(plan: &Plan, salt: u32) -> Option<Watch> {
         .collect();
     let &(resource, version) = written.get(salt as usize % written.len().max(1))?;
     let texture = plan.resource_path(resource);
-    Some(Watch { texture, version: Some(version), mip: 0, layer: 0 })
+    Some(WatchedTexture { texture, version: Some(version), mip: 0, layer: 0 })
 }
