@@ -15,7 +15,9 @@ pub enum Error {
     #[error("SG0702: not a valid dump: {problem}")]
     Dump { problem: String },
     /// An address on which no page can be served.
-    #[error("SG0703: no page can be served on {address}: {problem}")]
+    #[error(
+        "SG0703: no page can be served on {address}: {problem}; choose another port, or 0 for any free one"
+    )]
     Serve { address: std::net::SocketAddr, problem: String },
 }
 
