@@ -145,7 +145,7 @@ impl Graph {
     /// [`Executed::take_watched`](crate::Executed::take_watched) returns it. Use it to show a running program's textures.
     ///
     /// The pass is no longer merged with those after it, and stores what it draws; all else is recorded as without. A frame that
-    /// does not write the version is recorded as usual, and so is one whose [values are checked](Self::check_values).
+    /// does not write the version, or whose texture lacks the mip level or the layer, is recorded as usual, and so is one whose [values are checked](Self::check_values).
     ///
     /// ```
     /// use shadowgraph_core::{Contents, Format, Graph, TextureDesc, WatchedTexture};
@@ -162,7 +162,7 @@ impl Graph {
     /// queue.submit([encoder.finish()]);
     /// let watched = executed.take_watched().expect("the frame writes it");
     /// // A program that must not wait asks `watched.is_ready()` after each of its next frames.
-    /// let snapshot = watched.wait(&device)?.expect("it has a first layer");
+    /// let snapshot = watched.wait(&device)?;
     /// assert_eq!(snapshot.full_px, [64, 64]);
     /// # Ok::<(), shadowgraph_core::Error>(())
     /// ```

@@ -91,7 +91,7 @@ impl Executed {
         self.values.take()
     }
 
-    /// Takes the texture that [the graph watches](Graph::watch); `None` if the frame does not write that version, or it was taken before.
+    /// Takes the texture that [the graph watches](Graph::watch); `None` if the frame has no such version, or it was taken before.
     pub fn take_watched(&mut self) -> Option<PendingTexture> {
         self.watched.take()
     }

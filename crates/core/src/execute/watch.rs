@@ -29,14 +29,16 @@ impl PendingTexture {
         self.0.is_ready()
     }
 
-    /// Waits for the submitted frame and returns the texture; `None` for a mip level or a layer that it does not have.
+    /// Waits for the submitted frame and returns the texture.
     ///
     /// # Errors
     /// When the device is lost, or the encoder was not submitted.
-    pub fn wait(self, device: &wgpu::Device) -> Result<Option<TextureSnapshot>, Error> {
+    pub fn wait(self, device: &wgpu::Device) -> Result<TextureSnapshot, Error> {
         let mut snapshots = Vec::new();
         self.0.decode(device, &mut snapshots)?;
-        Ok(snapshots.pop())
+        let missing =
+            || Error::ReadBack { resource: "watched texture".into(), problem: "it has no texels".into() };
+        snapshots.pop().ok_or_else(missing)
     }
 }
 
@@ -77,7 +79,7 @@ pub(super) fn record_watched(
     Ok(executed)
 }
 
-/// Returns the position of the pass that writes the watched version, and its access to the texture.
+/// Returns the position of the pass that writes the watched version, and its access to the texture, if that has the mip level and the layer.
 fn written(plan: &Plan, watch: &WatchedTexture) -> Option<(usize, AccessDecl, TextureDesc)> {
     let decl = &plan.decl;
     let is_named = |access: &AccessDecl| {
@@ -91,7 +93,10 @@ fn written(plan: &Plan, watch: &WatchedTexture) -> Option<(usize, AccessDecl, Te
     let wanted = |access: &AccessDecl| watch.version.is_none_or(|version| version == access.version + 1);
     let (position, access) = writes.rfind(|(_, access)| wanted(access) && is_named(access))?;
     match decl.resource(access.resource).desc {
-        ResourceDesc::Texture(desc) => Some((position, *access, desc)),
-        ResourceDesc::Buffer(_) => None,
+        ResourceDesc::Texture(desc) if watch.mip < desc.mip_levels => {
+            let layers = Subresource::FULL.layer_range(&desc, watch.mip);
+            layers.contains(&watch.layer).then_some((position, *access, desc))
+        }
+        _ => None,
     }
 }

@@ -28,7 +28,7 @@ const INTERVAL: Duration = Duration::from_millis(90);
 ///
 /// The page is that of [`HtmlPage`](crate::HtmlPage) with one more view. Its address has a random token, without which nothing is
 /// answered. It can change nothing but what the program [offers](Self::offer). Pages are answered by threads of their own, and always get
-/// the newest frame: a slow one misses frames. Without a page, a frame costs two loads of a number.
+/// the newest frame: a slow one misses frames. Several pages watch the same texture. Without a page, a frame costs some loads of numbers.
 ///
 /// ```
 /// use shadowgraph_core::{Contents, Format, Graph, TextureDesc, wgpu};
@@ -68,7 +68,8 @@ pub struct Server {
     next_copy: Instant,
     /// Whether the graph watches what the page shows.
     is_watching: bool,
-    plan: Option<(Arc<Plan>, PlanNumber)>,
+    /// The plan of the last frame, and its number if a page has seen it.
+    plan: Option<(Arc<Plan>, Option<PlanNumber>)>,
     last_frame: Option<Instant>,
     frames: u64,
 }
@@ -170,7 +171,11 @@ impl Server {
         let now = Instant::now();
         let interval = self.last_frame.replace(now).map(|last| now - last);
         self.frames += 1;
-        let number = self.plan_number(executed);
+        let plan = executed.shared_plan();
+        if self.plan.as_ref().is_none_or(|(known, _)| !Arc::ptr_eq(known, &plan)) {
+            self.shared.set_last_plan(plan.clone());
+            self.plan = Some((plan, None));
+        }
         if self.viewers() == 0 {
             self.pending = None;
             return;
@@ -185,7 +190,8 @@ impl Server {
             let _sent = sender.try_send(Arrived { texture, plan, device: device.clone() });
         }
         let interval_ms = interval.map_or(0.0, |interval| interval.as_secs_f64() * 1e3);
-        let tick = Tick { number: self.frames, interval_ms, bytes: report.bytes, plan: number };
+        let plan = self.plan_number();
+        let tick = Tick { number: self.frames, interval_ms, bytes: report.bytes, plan };
         self.shared.add_frame(tick, report.times);
     }
 
@@ -194,17 +200,10 @@ impl Server {
         self.shared.set_pixel(history);
     }
 
-    /// Returns the number of a frame's plan; that of a new one is the next.
-    fn plan_number(&mut self, executed: &Executed) -> PlanNumber {
-        let plan = executed.shared_plan();
-        match &self.plan {
-            Some((known, number)) if Arc::ptr_eq(known, &plan) => *number,
-            _ => {
-                let number = self.shared.add_plan(&plan);
-                self.plan = Some((plan, number));
-                number
-            }
-        }
+    /// Returns the number of the last frame's plan.
+    fn plan_number(&mut self) -> PlanNumber {
+        let Some((_, number)) = &mut self.plan else { return 0 };
+        *number.get_or_insert_with(|| self.shared.number_last_plan())
     }
 }
 

@@ -50,10 +50,11 @@ pub(super) struct Shared {
 
 #[derive(Default)]
 struct State {
+    /// The plan of the last frame.
+    last: Option<Arc<Plan>>,
+    /// The plans that pages have seen.
     plans: VecDeque<(PlanNumber, Arc<Plan>)>,
     plan_count: PlanNumber,
-    /// The plan of the last frame.
-    current: PlanNumber,
     ticks: VecDeque<Tick>,
     times: Arc<Vec<PassTime>>,
     watch: Option<WatchedTexture>,
@@ -63,6 +64,23 @@ struct State {
     controls_message: Message,
     texture: Message,
     pixel: Message,
+}
+
+impl State {
+    /// Returns the number of the plan of the last frame, a new one unless an earlier plan is equal; 0 before there is one.
+    fn number_last_plan(&mut self) -> PlanNumber {
+        let Some(last) = &self.last else { return 0 };
+        // Programs alternate between few plans, such as those with and without a map that is kept.
+        if let Some((number, _)) = self.plans.iter().find(|(_, known)| known.has_structure_of(last)) {
+            return *number;
+        }
+        self.plan_count += 1;
+        self.plans.push_back((self.plan_count, last.clone()));
+        if self.plans.len() > PLANS {
+            self.plans.pop_front();
+        }
+        self.plan_count
+    }
 }
 
 /// A message to pages that only the newest one of matters.
@@ -131,10 +149,9 @@ impl Shared {
     }
 
     pub(super) fn offer(&self, controls: Controls) {
-        let message = serde_json::json!({ "controls": controls }).to_string();
         let mut state = self.state();
         if state.controls != controls || state.controls_message.change == 0 {
-            state.controls_message.replace(message);
+            state.controls_message.replace(serde_json::json!({ "controls": controls }).to_string());
             state.controls = controls;
         }
     }
@@ -169,21 +186,14 @@ impl Shared {
         self.state().watch = watch;
     }
 
-    pub(super) fn add_plan(&self, plan: &Arc<Plan>) -> PlanNumber {
-        let mut state = self.state();
-        let State { plans, plan_count, current, .. } = &mut *state;
-        // Programs alternate between few plans, such as those with and without a map that is kept.
-        if let Some((number, _)) = plans.iter().find(|(_, known)| known.has_structure_of(plan)) {
-            *current = *number;
-            return *current;
-        }
-        *plan_count += 1;
-        *current = *plan_count;
-        plans.push_back((*plan_count, plan.clone()));
-        if plans.len() > PLANS {
-            plans.pop_front();
-        }
-        *current
+    /// Sets the plan of the last frame.
+    pub(super) fn set_last_plan(&self, plan: Arc<Plan>) {
+        self.state().last = Some(plan);
+    }
+
+    /// Returns the number of the plan of the last frame; 0 before there is one.
+    pub(super) fn number_last_plan(&self) -> PlanNumber {
+        self.state().number_last_plan()
     }
 
     pub(super) fn add_frame(&self, tick: Tick, times: &[PassTime]) {
@@ -203,7 +213,7 @@ impl Shared {
 
     pub(super) fn set_texture(&self, arrived: Arrived) {
         let Arrived { texture, plan, device } = arrived;
-        let Ok(Some(snapshot)) = texture.wait(&device) else { return };
+        let Ok(snapshot) = texture.wait(&device) else { return };
         let message = format!("{{\"texture\":{}}}", snapshot_json(&plan, &snapshot));
         self.state().texture.replace(message);
     }
@@ -219,8 +229,8 @@ impl Shared {
     /// Returns the page of a plan, or of the last one; `None` for a plan that is not known any more.
     pub(super) fn page(&self, number: Option<PlanNumber>) -> Option<String> {
         let (plan, times, live) = {
-            let state = self.state();
-            let wanted = number.unwrap_or(state.current);
+            let mut state = self.state();
+            let wanted = number.unwrap_or_else(|| state.number_last_plan());
             let (_, plan) = state.plans.iter().find(|(known, _)| *known == wanted)?;
             (plan.clone(), state.times.clone(), LivePage { plan: wanted })
         };

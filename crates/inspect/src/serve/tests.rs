@@ -209,6 +209,14 @@ fn an_open_page_gets_frames_and_the_texture_that_it_watches() {
         assert_eq!((&texture["version"], &texture["full"]), (&json!(1), &json!([256, 128])));
         assert!(texture["data"].as_str().is_some_and(|data| data.len() > 20), "{texture}");
     }
+    for [mip, layer] in [[9, 0], [u32::MAX, 0], [0, 9], [0, u32::MAX]] {
+        let beyond = json!({ "texture": "color", "version": 1, "mip": mip, "layer": layer });
+        send(&mut socket, &json!({ "watch": beyond }));
+        wait_for(&mut socket, "frames");
+        wait_for(&mut socket, "frames");
+    }
+    send(&mut socket, &watch);
+    wait_for(&mut socket, "texture");
     send(&mut socket, &json!({ "watch": null }));
     socket.close(None).unwrap();
     while socket.read().is_ok() {}

@@ -68,6 +68,7 @@ const liveView = {
     this.wanted = this.texture.value === '' ? null : {
       texture: resourcePath(Number(this.texture.value)), version: this.version.value ? Number(this.version.value) : null, mip: whole(this.mip), layer: whole(this.layer),
     };
+    this.value.textContent = this.wanted ? 'waiting for a frame with it' : '';
     this.send({ watch: this.wanted });
   },
 
@@ -168,6 +169,7 @@ const liveView = {
       return;
     }
     const texels = await texelsOf(snapshot);
+    if (this.value.textContent.startsWith('waiting')) this.value.textContent = '';
     [this.snapshot, this.texels] = [snapshot, texels];
     paintTexels(this.canvas, snapshot, texels, true);
     this.textures += 1;
