@@ -15,11 +15,11 @@ use std::sync::mpsc::{SyncSender, sync_channel};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-use shadowgraph_core::{Executed, Graph, PassTime, PendingTexture, Plan, wgpu};
+use shadowgraph_core::{Executed, Graph, PassTime, Plan, wgpu};
 
 use crate::error::Error;
 use crate::pixel::PixelHistory;
-use shared::{Arrived, PlanNumber, Shared, Tick};
+use shared::{PlanNumber, Shared, Tick, WatchedFrame};
 
 /// Textures are copied this often, more than ten times a second, or with every frame if frames take longer.
 const INTERVAL: Duration = Duration::from_millis(90);
@@ -61,9 +61,9 @@ pub struct Server {
     shared: Arc<Shared>,
     address: SocketAddr,
     accepting: Option<JoinHandle<()>>,
-    encoding: Option<(SyncSender<Arrived>, JoinHandle<()>)>,
-    /// The watched texture that has not arrived yet, and the plan of its frame.
-    pending: Option<(PendingTexture, Arc<Plan>)>,
+    encoding: Option<(SyncSender<WatchedFrame>, JoinHandle<()>)>,
+    /// The watched texture that has not arrived yet.
+    pending: Option<WatchedFrame>,
     /// When the next copy is due.
     next_copy: Instant,
     /// Whether the graph watches what the page shows.
@@ -111,7 +111,7 @@ impl Server {
         };
         let accepted = shared.clone();
         let accepting = thread("frame page", Box::new(move || connection::accept(&listener, &accepted)))?;
-        let (sender, arrived) = sync_channel::<Arrived>(1);
+        let (sender, arrived) = sync_channel::<WatchedFrame>(1);
         let encoded = shared.clone();
         let encode = move || arrived.iter().for_each(|arrived| encoded.set_texture(arrived));
         let encoding = thread("frame page textures", Box::new(encode))?;
@@ -153,6 +153,7 @@ impl Server {
 
     /// Lets the graph copy the texture that a page shows, if it is time. Call it before a frame is executed.
     pub fn begin_frame(&mut self, graph: &mut Graph) {
+        self.hand_over();
         let watch = match self.viewers() > 0 && self.pending.is_none() && Instant::now() >= self.next_copy {
             true => self.shared.watch(),
             false => None,
@@ -166,7 +167,7 @@ impl Server {
         }
     }
 
-    /// Shows an executed frame that is submitted.
+    /// Shows an executed frame, before or after it is submitted.
     pub fn end_frame(&mut self, device: &wgpu::Device, executed: &mut Executed, report: &FrameReport<'_>) {
         let now = Instant::now();
         let interval = self.last_frame.replace(now).map(|last| now - last);
@@ -181,14 +182,10 @@ impl Server {
             return;
         }
         if let Some(texture) = executed.take_watched() {
-            self.pending = Some((texture, executed.shared_plan()));
+            let (plan, device) = (executed.shared_plan(), device.clone());
+            self.pending = Some(WatchedFrame { texture, plan, device });
         }
-        if let Some((texture, plan)) = self.pending.take_if(|(texture, _)| texture.is_ready())
-            && let Some((sender, _)) = &self.encoding
-        {
-            // Where the last one is still being encoded, this one is left out.
-            let _sent = sender.try_send(Arrived { texture, plan, device: device.clone() });
-        }
+        self.hand_over();
         let interval_ms = interval.map_or(0.0, |interval| interval.as_secs_f64() * 1e3);
         let plan = self.plan_number();
         let tick = Tick { number: self.frames, interval_ms, bytes: report.bytes, plan };
@@ -198,6 +195,16 @@ impl Server {
     /// Shows the history that a [`PageRequest::Pixel`] is for.
     pub fn answer_pixel(&mut self, history: &PixelHistory) {
         self.shared.set_pixel(history);
+    }
+
+    /// Lets the watched texture be encoded, if it has arrived.
+    fn hand_over(&mut self) {
+        if let Some(arrived) = self.pending.take_if(|watched| watched.texture.is_ready())
+            && let Some((sender, _)) = &self.encoding
+        {
+            // Where the last one is still being encoded, this one is left out.
+            let _sent = sender.try_send(arrived);
+        }
     }
 
     /// Returns the number of the last frame's plan.

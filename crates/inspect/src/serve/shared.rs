@@ -22,8 +22,8 @@ const REQUESTS: usize = 64;
 /// The number of a plan among those of the program, from 1.
 pub(super) type PlanNumber = u32;
 
-/// A texture that has arrived, with the plan of its frame.
-pub(super) struct Arrived {
+/// The watched texture of a frame, and the plan of the frame.
+pub(super) struct WatchedFrame {
     pub(super) texture: PendingTexture,
     pub(super) plan: Arc<Plan>,
     pub(super) device: wgpu::Device,
@@ -211,8 +211,8 @@ impl Shared {
         self.state().pixel.replace(message);
     }
 
-    pub(super) fn set_texture(&self, arrived: Arrived) {
-        let Arrived { texture, plan, device } = arrived;
+    pub(super) fn set_texture(&self, arrived: WatchedFrame) {
+        let WatchedFrame { texture, plan, device } = arrived;
         let Ok(snapshot) = texture.wait(&device) else { return };
         let message = format!("{{\"texture\":{}}}", snapshot_json(&plan, &snapshot));
         self.state().texture.replace(message);
