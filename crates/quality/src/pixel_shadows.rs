@@ -187,7 +187,12 @@ impl<'i> ShadowInspector<'i> {
             found.unshadowed = self.unshadowed(number, light);
             if found.reach == Reachability::Reached {
                 let (_, image) = self.visibility(number)?;
-                found.visibility = rgb(image, index);
+                // The normal of the lit pass is more precise than that of surfaces.
+                if is_facing_away(image, index) {
+                    (found.reach, found.ray, found.blocker) = (Reachability::FacesAway, None, None);
+                } else {
+                    found.visibility = rgb(image, index);
+                }
             }
             if found.differs() && found.unshadowed.is_none() {
                 found.is_at_edge = self.traced(index).is_at_edge(light);
@@ -288,6 +293,11 @@ impl Best<'_> {
             self.found = Some(PixelRemedy { setting, visibility });
         }
     }
+}
+
+/// Returns whether the image `visibility:N` says that the surface at a pixel faces away from the light.
+fn is_facing_away(rgba8: &[u8], index: usize) -> bool {
+    rgba8.chunks_exact(4).nth(index).is_some_and(|rgba| rgba[3] == 0)
 }
 
 fn rgb(rgba8: &[u8], index: usize) -> Option<[u8; 3]> {
