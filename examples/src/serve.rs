@@ -21,7 +21,7 @@ pub(super) fn run<E: Example>(gpu: &Gpu, port: u16, arguments: &Arguments) -> Re
         for request in server.take_requests() {
             match request {
                 PageRequest::Freeze(freeze) => is_frozen = freeze,
-                PageRequest::Step(_) => moves = true,
+                PageRequest::Step => moves = true,
                 _ => {}
             }
         }

@@ -50,7 +50,7 @@ impl Live {
         for request in self.server.take_requests() {
             match request {
                 PageRequest::Freeze(freeze) => (self.is_frozen, self.steps) = (freeze, 0),
-                PageRequest::Step(_) => (self.is_frozen, self.steps) = (true, self.steps + 1),
+                PageRequest::Step => (self.is_frozen, self.steps) = (true, self.steps + 1),
                 PageRequest::Pixel(pixel) => self.pixel = Some(pixel),
                 PageRequest::Choose { value, .. } => {
                     if let Ok(technique) = registry.techniques.find(&value) {
@@ -58,7 +58,6 @@ impl Live {
                     }
                 }
                 PageRequest::Set { value, .. } => *adjustable.distance_m = value as f32,
-                PageRequest::Record(_) => {}
             }
         }
         let chosen = adjustable.technique.name();
@@ -72,7 +71,6 @@ impl Live {
         let distance = OfferedValue::Number { value, min: 1.0, max: 10_000.0 };
         self.server.offer(Controls {
             freeze: Some(self.is_frozen),
-            record: None,
             pixel: true,
             settings: vec![
                 Offered { name: TECHNIQUE.into(), value: technique },

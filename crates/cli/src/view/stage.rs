@@ -287,7 +287,7 @@ impl Stage {
         Ok(())
     }
 
-    /// Creates the renderer for the current adjustable. On failure the previous one stays, with its image.
+    /// Creates the renderer for the current choices. On failure the previous one stays, with its image.
     fn update_renderer(&mut self, gpu: &Gpu) -> Result<(), shadowgraph::Error> {
         let key = (self.technique, self.pipeline.clone(), self.aov.clone());
         if let Some((_, created)) = self.created.as_ref().filter(|(last, _)| *last == key) {

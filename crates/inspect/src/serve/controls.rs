@@ -7,8 +7,6 @@ use serde::Serialize;
 pub struct Controls {
     /// Whether the program stands still, if the page may freeze it and let it do one step.
     pub freeze: Option<bool>,
-    /// Whether frames are recorded, if the page may record.
-    pub record: Option<bool>,
     /// Whether the page may ask for the history of a pixel.
     pub pixel: bool,
     /// Settings.

@@ -12,9 +12,7 @@ pub enum PageRequest {
     /// Stand still, or go on.
     Freeze(bool),
     /// Draw the next frame and stand still again.
-    Step(bool),
-    /// Begin or end a recording.
-    Record(bool),
+    Step,
     /// Draw a frame pass by pass and [answer](super::Server::answer_pixel) with the history of a pixel: column and row from the top left.
     Pixel([u32; 2]),
     /// Set a setting to one of its words.
@@ -38,8 +36,7 @@ impl PageRequest {
     pub(super) fn check(&self, controls: &Controls) -> Result<(), String> {
         let offered = |name: &str| controls.settings.iter().find(|setting| setting.name == name);
         let is_offered = match self {
-            Self::Freeze(_) | Self::Step(_) => controls.freeze.is_some(),
-            Self::Record(_) => controls.record.is_some(),
+            Self::Freeze(_) | Self::Step => controls.freeze.is_some(),
             Self::Pixel(_) => controls.pixel,
             Self::Choose { name, value } => match offered(name).map(|setting| &setting.value) {
                 Some(OfferedValue::Choice { all, .. }) => all.contains(value),

@@ -218,10 +218,11 @@ impl Shared {
         self.state().texture.replace(message);
     }
 
-    /// Returns what is new to a page that has seen the frames up to a number, and changes of messages.
-    pub(super) fn news(&self, frame: u64) -> News {
+    /// Returns the messages, and the frames after one, if they are wanted.
+    pub(super) fn news(&self, after: Option<u64>) -> News {
         let state = self.state();
-        let ticks = state.ticks.iter().filter(|tick| tick.number > frame).copied().collect();
+        let is_new = |tick: &&Tick| after.is_some_and(|frame| tick.number > frame);
+        let ticks = state.ticks.iter().filter(is_new).copied().collect();
         let messages = [&state.controls_message, &state.texture, &state.pixel].map(Clone::clone);
         News { ticks, times: state.times.clone(), messages }
     }

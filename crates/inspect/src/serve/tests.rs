@@ -230,7 +230,6 @@ fn a_page_can_ask_for_what_is_offered_and_for_nothing_else() {
     let choice = OfferedValue::Choice { chosen: "pcf".into(), all: vec!["pcf".into(), "none".into()] };
     let controls = Controls {
         freeze: Some(false),
-        record: None,
         pixel: true,
         settings: vec![
             Offered { name: "scale".into(), value: number },
@@ -243,14 +242,14 @@ fn a_page_can_ask_for_what_is_offered_and_for_nothing_else() {
     assert_eq!(offered["settings"][0]["value"]["number"]["max"], 4.0);
     let allowed = [
         json!({ "freeze": true }),
-        json!({ "step": true }),
+        json!("step"),
         json!({ "pixel": [3, 4] }),
         json!({ "set": { "name": "scale", "value": 4.0 } }),
         json!({ "choose": { "name": "technique", "value": "none" } }),
     ];
     allowed.iter().for_each(|request| send(&mut socket, &json!({ "request": request })));
     let refused = [
-        json!({ "request": { "record": true } }),
+        json!({ "request": { "quit": true } }),
         json!({ "request": { "set": { "name": "scale", "value": 4.5 } } }),
         json!({ "request": { "set": { "name": "scale", "value": null } } }),
         json!({ "request": { "set": { "name": "technique", "value": 1.0 } } }),
@@ -272,7 +271,7 @@ fn a_page_can_ask_for_what_is_offered_and_for_nothing_else() {
     let requests = program.end().requests;
     let expected = [
         PageRequest::Freeze(true),
-        PageRequest::Step(true),
+        PageRequest::Step,
         PageRequest::Pixel([3, 4]),
         PageRequest::Set { name: "scale".into(), value: 4.0 },
         PageRequest::Choose { name: "technique".into(), value: "none".into() },

@@ -82,15 +82,15 @@ impl Viewer<'_> {
     }
 
     fn send_news(&mut self) -> Result<(), Error> {
-        let News { ticks, times, messages } = self.shared.news(self.frame);
+        let is_due = self.ticked.is_none_or(|ticked| ticked.elapsed() >= TICK_EVERY);
+        let News { ticks, times, messages } = self.shared.news(is_due.then_some(self.frame));
         for (index, message) in messages.iter().enumerate() {
             if message.change > self.seen[index] {
                 self.seen[index] = message.change;
                 self.send(message.json.to_string())?;
             }
         }
-        let is_due = self.ticked.is_none_or(|ticked| ticked.elapsed() >= TICK_EVERY);
-        if let Some(last) = ticks.last().filter(|_| is_due) {
+        if let Some(last) = ticks.last() {
             self.ticked = Some(Instant::now());
             self.frame = last.number;
             let pass = |time: &PassTime| (time.cpu_ms, time.gpu_ms);

@@ -69,7 +69,7 @@ fn the_custom_engine_is_watched_while_it_runs_frozen_and_moved_by_steps() {
     };
     let frozen = settled(&mut page);
     assert_eq!(settled(&mut page), frozen);
-    page.value("liveView.ask({ step: true })");
+    page.value("liveView.ask('step')");
     let stepped = settled(&mut page);
     assert_ne!(stepped, frozen);
     assert_eq!(settled(&mut page), stepped);

@@ -82,15 +82,13 @@ const liveView = {
 
   showControls(controls) {
     this.controls = controls;
-    const toggle = (name, on, words) => on != null && h('button', { 'aria-pressed': String(on), onclick: () => this.ask({ [name]: !on }) }, words[Number(on)]);
     const setting = ({ name, value }) => h('label', {}, `${name} `, value.choice
       ? h('select', { onchange: (event) => this.ask({ choose: { name, value: event.target.value } }) },
         value.choice.all.map((word) => h('option', { value: word, selected: word === value.choice.chosen }, word)))
       : h('input', { type: 'number', step: 'any', min: value.number.min, max: value.number.max, value: value.number.value, onchange: (event) => this.ask({ set: { name, value: Number(event.target.value) } }) }));
     this.buttons.replaceChildren(...[
-      toggle('freeze', controls.freeze, ['Freeze', 'Continue']),
-      controls.freeze && h('button', { onclick: () => this.ask({ step: true }) }, 'Step'),
-      toggle('record', controls.record, ['Record', 'End recording']),
+      controls.freeze != null && h('button', { 'aria-pressed': String(controls.freeze), onclick: () => this.ask({ freeze: !controls.freeze }) }, controls.freeze ? 'Continue' : 'Freeze'),
+      controls.freeze && h('button', { onclick: () => this.ask('step') }, 'Step'),
       ...controls.settings.map(setting),
     ].filter(Boolean));
     this.canvas.style.cursor = controls.pixel ? 'crosshair' : 'default';
