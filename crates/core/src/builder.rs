@@ -41,24 +41,28 @@ pub struct Pass<'p, 'f, K> {
 
 impl<'f> Frame<'f> {
     /// Declares a pass that draws.
+    #[track_caller]
     pub fn render_pass(&mut self, name: impl Name) -> Pass<'_, 'f, Rendering> {
         let id = self.add_pass(name, PassKind::Render);
         Pass::new(self, id)
     }
 
     /// Declares a pass that dispatches compute work.
+    #[track_caller]
     pub fn compute_pass(&mut self, name: impl Name) -> Pass<'_, 'f, Compute> {
         let id = self.add_pass(name, PassKind::Compute);
         Pass::new(self, id)
     }
 
     /// Declares a pass that copies; the graph records the copies itself.
+    #[track_caller]
     pub fn copy_pass(&mut self, name: impl Name) -> Pass<'_, 'f, Copying> {
         let id = self.add_pass(name, PassKind::Copy);
         Pass::new(self, id)
     }
 
     /// Declares a pass that records into the raw encoder: the escape hatch for everything that the graph does not support.
+    #[track_caller]
     pub fn encoder_pass(&mut self, name: impl Name) -> Pass<'_, 'f, Encoding> {
         let id = self.add_pass(name, PassKind::Encoder);
         Pass::new(self, id)

@@ -9,6 +9,7 @@ use std::sync::Arc;
 /// A compiled frame: the plan, and the pass bodies to record.
 pub struct Compiled<'f> {
     pub(crate) plan: Arc<Plan>,
+    /// Its declaration is in the plan, except for the places of passes: equal frames share the plan.
     #[cfg_attr(not(feature = "gpu"), allow(dead_code, reason = "bodies and uploads are for the executor"))]
     pub(crate) frame: Frame<'f>,
 }
@@ -45,6 +46,7 @@ impl<'f> Frame<'f> {
     pub fn compile(mut self) -> Result<Compiled<'f>, Error> {
         self.check()?;
         let plan = compile::compile(std::mem::take(&mut self.decl))?;
+        self.decl.places.clone_from(&plan.decl.places);
         Ok(Compiled::new(Arc::new(plan), self))
     }
 }

@@ -7,6 +7,7 @@ use crate::access::{Access, ClearValue, Contents};
 use crate::desc::ResourceDesc;
 use crate::handle::{NodeId, PassId, ResourceId};
 use crate::name::{Names, Text};
+use crate::pass_name::{PassName, Places};
 use crate::subresource::{Region, Subresource};
 use serde::Serialize;
 use std::ops::Range;
@@ -239,6 +240,7 @@ pub(crate) struct Declaration {
     pub(crate) options: Options,
     pub(crate) resources: Vec<ResourceDecl>,
     pub(crate) passes: Vec<PassDecl>,
+    pub(crate) places: Places,
     pub(crate) accesses: Vec<AccessDecl>,
     pub(crate) nodes: Vec<NodeDecl>,
     pub(crate) subresources: Vec<SubresourceDecl>,
@@ -256,6 +258,7 @@ impl Declaration {
             options,
             resources,
             passes,
+            places,
             accesses,
             nodes,
             subresources,
@@ -268,6 +271,7 @@ impl Declaration {
         *options = Options::default();
         resources.clear();
         passes.clear();
+        places.0.clear();
         accesses.clear();
         nodes.clear();
         subresources.clear();
@@ -364,6 +368,16 @@ impl Declaration {
         path
     }
 
+    /// Returns the pass for an error.
+    pub(crate) fn pass_name(&self, id: PassId) -> PassName {
+        self.pass_name_at(id, &self.places)
+    }
+
+    /// Returns the pass of a frame with other places for an error.
+    pub(crate) fn pass_name_at(&self, id: PassId, places: &Places) -> PassName {
+        PassName::new(self.pass_path(id), places.0.get(id.index()).copied())
+    }
+
     /// Appends what [`pass_path`](Self::pass_path) returns.
     pub(crate) fn write_pass_path(&self, id: PassId, path: &mut String) {
         let pass = self.pass(id);
@@ -399,6 +413,7 @@ impl Declaration {
             options,
             resources,
             passes,
+            places: _,
             accesses,
             nodes,
             subresources,

@@ -1,25 +1,27 @@
 //! Errors of the graph. Every message names the pass, the resource and a fix.
 
+use crate::pass_name::PassName;
+
 /// An error in the declaration of a frame, or while it is executed.
 ///
 /// Each has a [`code`](Self::code) that never changes and begins the message; `docs/errors.md` has a section with
-/// an example for each code.
+/// an example for each code. Passes have the [`PassName`] with the place in the source that declared them.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 #[allow(missing_docs, reason = "the fields are named as in the message above them")]
 pub enum Error {
     /// A read through a stale handle.
     #[error(
-        "SG0101: {location} reads version {version} of `{resource}`, but `{writer}` has since written version \
+        "SG0101: {location} reads version {version} of `{resource}`, but {writer} has since written version \
          {latest}; read before that write, or use the handle that was passed to it by `&mut` (export last)"
     )]
-    StaleRead { location: String, resource: String, version: u32, writer: String, latest: u32 },
+    StaleRead { location: String, resource: String, version: u32, writer: PassName, latest: u32 },
     /// Two passes write the same version.
     #[error(
-        "SG0102: pass `{pass}` writes version {version} of `{resource}`, which `{writer}` has already \
+        "SG0102: pass {pass} writes version {version} of `{resource}`, which {writer} has already \
          overwritten; pass the same handle by `&mut` to both, not a clone from before the first write"
     )]
-    TwoWriters { pass: String, resource: String, version: u32, writer: String },
+    TwoWriters { pass: PassName, resource: String, version: u32, writer: PassName },
     /// A handle or token of another frame.
     #[error(
         "SG0103: {location} uses a handle of another frame; handles are valid for one frame, so keep \
@@ -28,10 +30,10 @@ pub enum Error {
     ForeignHandle { location: String },
     /// A token was used in a pass that did not declare the access.
     #[error(
-        "SG0104: pass `{pass}` uses `{resource}` without declaring the access (the token belongs to \
-         `{declared_by}`); declare the access on `{pass}` and use the token that it returns"
+        "SG0104: pass {pass} uses `{resource}` without declaring the access (the token belongs to \
+         {declared_by}); declare the access on the pass that uses it, and use the token that it returns"
     )]
-    Undeclared { pass: String, resource: String, declared_by: String },
+    Undeclared { pass: PassName, resource: String, declared_by: PassName },
     /// A read of undefined contents.
     #[error(
         "SG0201: {location} reads {subresource} of `{resource}`, which is not fully defined; write all of it in \
@@ -40,76 +42,76 @@ pub enum Error {
     UndefinedRead { location: String, resource: String, subresource: String },
     /// A preserving write over undefined contents.
     #[error(
-        "SG0202: pass `{pass}` preserves {subresource} of `{resource}`, which is not fully defined; use \
+        "SG0202: pass {pass} preserves {subresource} of `{resource}`, which is not fully defined; use \
          `Contents::Clear` or `Contents::Overwrite` for the first write"
     )]
-    UndefinedPreserve { pass: String, resource: String, subresource: String },
+    UndefinedPreserve { pass: PassName, resource: String, subresource: String },
     /// Conflicting accesses to a resource in one pass.
     #[error(
-        "SG0203: pass `{pass}` uses `{resource}` as {first} and as {second}, which conflict in one pass; \
+        "SG0203: pass {pass} uses `{resource}` as {first} and as {second}, which conflict in one pass; \
          split the pass, or write to another texture, buffer, mip or layer"
     )]
-    Conflict { pass: String, resource: String, first: String, second: String },
+    Conflict { pass: PassName, resource: String, first: String, second: String },
     /// A write to the previous contents of a history.
     #[error(
-        "SG0204: pass `{pass}` writes `{resource}`, the previous contents of a history; write the history's \
+        "SG0204: pass {pass} writes `{resource}`, the previous contents of a history; write the history's \
          `current` instead"
     )]
-    PreviousWritten { pass: String, resource: String },
+    PreviousWritten { pass: PassName, resource: String },
     /// A render pass without an attachment.
     #[error(
-        "SG0301: render pass `{pass}` has no attachment; give it a colour or depth attachment, or make it a \
+        "SG0301: render pass {pass} has no attachment; give it a colour or depth attachment, or make it a \
          compute pass"
     )]
-    NoAttachment { pass: String },
+    NoAttachment { pass: PassName },
     /// Attachments that differ in size or sample count.
     #[error(
-        "SG0302: the attachments of pass `{pass}` differ: {first}, {second}; give them the same size and \
+        "SG0302: the attachments of pass {pass} differ: {first}, {second}; give them the same size and \
          sample count"
     )]
-    AttachmentMismatch { pass: String, first: String, second: String },
+    AttachmentMismatch { pass: PassName, first: String, second: String },
     /// An attachment of several mips or layers.
     #[error(
-        "SG0303: pass `{pass}` attaches {subresource} of `{resource}`, but an attachment is one mip of one layer; \
+        "SG0303: pass {pass} attaches {subresource} of `{resource}`, but an attachment is one mip of one layer; \
          narrow it with `subresource(Subresource::FULL.mip(..).layer(..))`"
     )]
-    AttachmentSubresource { pass: String, resource: String, subresource: String },
+    AttachmentSubresource { pass: PassName, resource: String, subresource: String },
     /// A format that does not support the access.
-    #[error("SG0304: pass `{pass}` uses `{resource}` as {access}, but its format {format:?} {problem}")]
+    #[error("SG0304: pass {pass} uses `{resource}` as {access}, but its format {format:?} {problem}")]
     Format {
-        pass: String,
+        pass: PassName,
         resource: String,
         access: &'static str,
         format: crate::Format,
         problem: &'static str,
     },
     /// An invalid clear value.
-    #[error("SG0305: pass `{pass}` clears `{resource}` with {problem}")]
-    Clear { pass: String, resource: String, problem: &'static str },
+    #[error("SG0305: pass {pass} clears `{resource}` with {problem}")]
+    Clear { pass: PassName, resource: String, problem: &'static str },
     /// An invalid resolve.
-    #[error("SG0306: pass `{pass}` resolves into `{resource}`, but {problem}")]
-    Resolve { pass: String, resource: String, problem: String },
+    #[error("SG0306: pass {pass} resolves into `{resource}`, but {problem}")]
+    Resolve { pass: PassName, resource: String, problem: String },
     /// A second depth attachment.
     #[error(
-        "SG0307: pass `{pass}` has the depth attachments `{first}` and `{second}`, but a render pass has \
+        "SG0307: pass {pass} has the depth attachments `{first}` and `{second}`, but a render pass has \
          only one; split the pass in two"
     )]
-    SecondDepth { pass: String, first: String, second: String },
+    SecondDepth { pass: PassName, first: String, second: String },
     /// A copy between incompatible resources.
-    #[error("SG0308: pass `{pass}` cannot copy {from} to {to}: {problem}")]
-    CopyMismatch { pass: String, from: String, to: String, problem: String },
+    #[error("SG0308: pass {pass} cannot copy {from} to {to}: {problem}")]
+    CopyMismatch { pass: PassName, from: String, to: String, problem: String },
     /// An invalid texture, buffer or history.
     #[error("SG0401: `{resource}` is invalid: {problem}")]
     InvalidResource { resource: String, problem: String },
     /// A subresource out of range.
-    #[error("SG0402: pass `{pass}` uses {subresource} of `{resource}`, but {problem}")]
-    InvalidSubresource { pass: String, resource: String, subresource: String, problem: &'static str },
+    #[error("SG0402: pass {pass} uses {subresource} of `{resource}`, but {problem}")]
+    InvalidSubresource { pass: PassName, resource: String, subresource: String, problem: &'static str },
     /// An imported resource lacks a usage.
     #[error(
-        "SG0403: pass `{pass}` uses imported `{resource}` as {access}, but it was created without \
+        "SG0403: pass {pass} uses imported `{resource}` as {access}, but it was created without \
          {needed}; add that usage where you create it"
     )]
-    ImportUsage { pass: String, resource: String, access: &'static str, needed: String },
+    ImportUsage { pass: PassName, resource: String, access: &'static str, needed: String },
     /// An import was declared without an object.
     #[error(
         "SG0404: `{resource}` was declared as an import without an object; use `import_texture` or \
@@ -118,10 +120,10 @@ pub enum Error {
     NoImport { resource: String },
     /// An impossible pass order.
     #[error(
-        "SG0501: pass `{pass}` must run after pass {other}, which is not declared before it; use the id \
+        "SG0501: pass {pass} must run after pass {other}, which is not declared before it; use the id \
          of an earlier pass"
     )]
-    Order { pass: String, other: u32 },
+    Order { pass: PassName, other: u32 },
     /// No published value of a type.
     #[error(
         "SG0502: {location} looks up `{value}`, which no earlier node has published; add the node that \
@@ -135,8 +137,8 @@ pub enum Error {
     )]
     Limit { resource: String, limit: &'static str, needed: u64, allowed: u64 },
     /// A pass body failed.
-    #[error("SG0602: pass `{pass}`: {message}")]
-    Body { pass: String, message: String },
+    #[error("SG0602: pass {pass}: {message}")]
+    Body { pass: PassName, message: String },
     /// A resource that cannot be read back.
     #[error("SG0603: `{resource}` cannot be read back: {problem}")]
     ReadBack { resource: String, problem: String },
@@ -165,7 +167,7 @@ pub enum Error {
 impl Error {
     /// Creates an error for a failure inside a pass body; the executor adds the name of the pass.
     pub fn body(message: impl std::fmt::Display) -> Self {
-        Self::Body { pass: String::new(), message: message.to_string() }
+        Self::Body { pass: PassName::default(), message: message.to_string() }
     }
 
     /// Returns the error's code, such as `SG0101`. A code is never reused for another error.

@@ -61,6 +61,7 @@ mod history;
 #[cfg(feature = "gpu")]
 mod internal;
 mod name;
+mod pass_name;
 #[cfg(feature = "gpu")]
 mod pipeline;
 mod plan;
@@ -72,6 +73,8 @@ mod subresource;
 mod suggest;
 #[cfg(all(test, feature = "gpu"))]
 mod test_device;
+#[cfg(test)]
+mod test_text;
 mod texels;
 #[cfg(feature = "gpu")]
 mod timer;
@@ -109,6 +112,7 @@ pub use handle::{
 };
 pub use history::Resize;
 pub use name::Name;
+pub use pass_name::PassName;
 
 #[cfg(feature = "gpu")]
 pub use pipeline::{ComputeShader, FullscreenShader};

@@ -17,6 +17,8 @@ use crate::error::Error;
 #[cfg(any(feature = "gpu", test))]
 use crate::handle::Token;
 use crate::handle::{NodeId, PassId, ResourceId, SlotId};
+#[cfg(any(feature = "gpu", test))]
+use crate::pass_name::Places;
 use crate::subresource::{Region, Subresource};
 use serde::Serialize;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -439,20 +441,26 @@ impl Plan {
         self.slots.iter().map(saved).sum()
     }
 
-    /// Returns the resource of a token used in `pass`: only tokens of that pass resolve.
+    /// Returns the resource of a token used in `pass`: only tokens of that pass resolve. `places` are those of the frame.
     #[cfg(any(feature = "gpu", test))]
-    pub(crate) fn resolve(&self, frame: u64, pass: PassId, token: Token) -> Result<ResourceId, Error> {
+    pub(crate) fn resolve(
+        &self,
+        (frame, places): (u64, &Places),
+        pass: PassId,
+        token: Token,
+    ) -> Result<ResourceId, Error> {
+        let name = |pass| self.decl.pass_name_at(pass, places);
         let index = token.access as usize;
         match self.decl.accesses.get(index).filter(|_| token.is_of(frame)) {
-            None => Err(Error::ForeignHandle { location: format!("pass `{}`", self.pass_path(pass)) }),
+            None => Err(Error::ForeignHandle { location: format!("pass {}", name(pass)) }),
             Some(access) if self.decl.access_range(pass).contains(&index) => Ok(access.resource),
             Some(access) => {
                 let declared_by =
                     self.decl.pass_ids().find(|&id| self.decl.access_range(id).contains(&index));
                 Err(Error::Undeclared {
-                    pass: self.pass_path(pass),
+                    pass: name(pass),
                     resource: self.resource(access.resource).name.into(),
-                    declared_by: declared_by.map_or_else(String::new, |id| self.pass_path(id)),
+                    declared_by: declared_by.map(name).unwrap_or_default(),
                 })
             }
         }

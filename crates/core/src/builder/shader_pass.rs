@@ -36,6 +36,7 @@ impl<'f> Frame<'f> {
     /// # Errors
     /// `compile` returns the errors of any pass. `execute` returns [`Error::Shader`] with wgpu's message for a shader that
     /// does not compile, or does not match its bindings or targets.
+    #[track_caller]
     pub fn fullscreen(
         &mut self,
         name: impl Name,
@@ -52,6 +53,7 @@ impl<'f> Frame<'f> {
     /// # Errors
     /// `compile` returns the errors of any pass. `execute` returns [`Error::Shader`] with wgpu's message for a shader that
     /// does not compile or does not match its bindings, and [`Error::Limit`] for more workgroups than the device allows.
+    #[track_caller]
     pub fn compute(&mut self, name: impl Name, shader: &ComputeShader) -> ShaderPassBuilder<'_, 'f, Compute> {
         ShaderPassBuilder::new(self.compute_pass(name), shader.0.clone(), Command::Dispatch([0; 3]))
     }
@@ -110,7 +112,7 @@ impl<'p, 'f, K> ShaderPassBuilder<'p, 'f, K> {
         };
         if uniform.size_bytes() == 0 {
             let resource =
-                format!("a uniform block of pass `{}`", self.pass.frame.decl.pass_path(self.pass.id));
+                format!("a uniform block of pass {}", self.pass.frame.decl.pass_name(self.pass.id));
             self.pass.frame.report_error(Error::InvalidResource {
                 resource,
                 problem: "a uniform block must not be empty".into(),
@@ -273,7 +275,7 @@ impl ShaderPassBuilder<'_, '_, Compute> {
         let is_of_frame = self.pass.frame.buffer_desc(arguments).is_some();
         if is_of_frame && !offset.is_multiple_of(wgpu::COPY_BUFFER_ALIGNMENT) {
             let error = Error::InvalidSubresource {
-                pass: self.pass.frame.decl.pass_path(self.pass.id),
+                pass: self.pass.frame.decl.pass_name(self.pass.id),
                 resource: self.pass.frame.decl.resource_path(arguments.id()),
                 subresource: part.to_string(),
                 problem: "the arguments of a dispatch must begin at a multiple of 4",

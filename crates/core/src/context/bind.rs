@@ -113,8 +113,8 @@ impl Resources<'_> {
             let create = || create(self.device(), layout, bound, &views);
             let Some(stage) = stage else { return Ok(create()) };
             let prefix = format!(
-                "the bindings of pass `{}` must be exactly those that the shader uses in group 0, in order: ",
-                self.recording.plan.pass_path(self.pass)
+                "the bindings of pass {} must be exactly those that the shader uses in group 0, in order: ",
+                self.pass_name()
             );
             stage.checked(self.device(), &prefix, create)
         })

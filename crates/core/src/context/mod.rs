@@ -11,6 +11,7 @@ pub(crate) use recording::{Recording, Uploads};
 use crate::desc::ResourceDesc;
 use crate::error::Error;
 use crate::handle::{BufferToken, PassId, ResourceId, TextureToken, Token, Uniform};
+use crate::pass_name::PassName;
 use crate::pool::{Caches, ViewUsage};
 use crate::shader_pass::ShaderPasses;
 use crate::subresource::Subresource;
@@ -75,7 +76,7 @@ impl<'a> Resources<'a> {
     }
 
     fn resolve(&self, token: Token) -> Result<ResourceId, Error> {
-        self.recording.plan.resolve(self.recording.frame, self.pass, token)
+        self.recording.plan.resolve((self.recording.frame, self.recording.places), self.pass, token)
     }
 
     pub(crate) fn part(&self, token: Token) -> Subresource {
@@ -97,13 +98,14 @@ impl<'a> Resources<'a> {
 
     pub(crate) fn uniforms(&self, uniform: &Uniform) -> Result<&'a wgpu::Buffer, Error> {
         let same_frame = uniform.frame == self.recording.frame;
-        self.recording.uniforms.filter(|_| same_frame).ok_or_else(|| Error::ForeignHandle {
-            location: format!("pass `{}`", self.recording.plan.pass_path(self.pass)),
-        })
+        self.recording
+            .uniforms
+            .filter(|_| same_frame)
+            .ok_or_else(|| Error::ForeignHandle { location: format!("pass {}", self.pass_name()) })
     }
 
-    pub(crate) fn pass_path(&self) -> String {
-        self.recording.plan.pass_path(self.pass)
+    pub(crate) fn pass_name(&self) -> PassName {
+        self.recording.pass_name(self.pass)
     }
 
     pub(crate) fn caches(&self) -> MutexGuard<'a, Caches> {

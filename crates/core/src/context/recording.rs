@@ -1,7 +1,8 @@
 //! State that the passes of a frame share while they are recorded.
 
 use crate::error::Error;
-use crate::handle::ResourceId;
+use crate::handle::{PassId, ResourceId};
+use crate::pass_name::{PassName, Places};
 use crate::plan::Plan;
 use crate::pool::{PhysicalResource, Pool, ResolvedPlan};
 use crate::shader_pass::ShaderPasses;
@@ -11,6 +12,8 @@ use crate::timer::Timer;
 pub(crate) struct Recording<'a> {
     pub(crate) plan: &'a Plan,
     pub(crate) frame: u64,
+    /// The places of the frame's passes, which can be others than those of the plan.
+    pub(crate) places: &'a Places,
     pub(crate) resolved: &'a ResolvedPlan,
     pub(crate) pool: &'a Pool,
     pub(crate) device: &'a wgpu::Device,
@@ -44,6 +47,11 @@ impl<'a> Recording<'a> {
             Some(PhysicalResource::Buffer(buffer)) => Ok(buffer),
             _ => Err(self.missing_import(id)),
         }
+    }
+
+    /// Returns a pass for an error.
+    pub(crate) fn pass_name(&self, pass: PassId) -> PassName {
+        self.plan.decl.pass_name_at(pass, self.places)
     }
 
     /// Returns the error of a resource without an object, which only an import can be.

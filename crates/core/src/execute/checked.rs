@@ -39,7 +39,7 @@ impl Compiled<'_> {
     /// });
     /// frame.export_texture(&color);
     /// let failed = graph.compile(frame)?.execute_checked(&mut graph, &device, &queue).err().ok_or("it draws")?;
-    /// assert!(failed.to_string().starts_with("SG0606: wgpu validation error in `draws without a pipeline`: "));
+    /// assert!(failed.to_string().starts_with("SG0606: wgpu validation error in `draws without a pipeline` ("));
     /// println!("{}", failed.plan.to_text());
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```

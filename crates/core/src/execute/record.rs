@@ -98,6 +98,7 @@ impl Prepared {
         Recording {
             plan: &compiled.plan,
             frame: compiled.frame.id(),
+            places: &compiled.frame.decl.places,
             resolved: &self.resolved,
             pool,
             device,
@@ -170,8 +171,8 @@ impl<'a> Recording<'a> {
             timer.cpu(id, started);
         }
         result.map_err(|error| match error {
-            Error::Body { pass, message } if pass.is_empty() => {
-                Error::Body { pass: self.plan.pass_path(id), message }
+            Error::Body { pass, message } if pass.path().is_empty() => {
+                Error::Body { pass: self.pass_name(id), message }
             }
             error => error,
         })

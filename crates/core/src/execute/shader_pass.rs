@@ -66,7 +66,7 @@ fn bind_group(
 fn in_pass(resources: &Resources<'_>, error: Error) -> Error {
     match error {
         Error::Shader { shader, message } => {
-            Error::Shader { shader, message: format!("pass `{}`: {message}", resources.pass_path()) }
+            Error::Shader { shader, message: format!("pass {}: {message}", resources.pass_name()) }
         }
         error => error,
     }

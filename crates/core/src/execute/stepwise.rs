@@ -3,11 +3,10 @@
 use super::Executed;
 use super::record::prepare;
 use crate::compiled::Compiled;
-use crate::context::Bodies;
+use crate::context::{Bodies, Recording};
 use crate::error::Error;
 use crate::graph::Graph;
 use crate::handle::PassId;
-use crate::plan::Plan;
 use crate::pool::Pool;
 
 impl Compiled<'_> {
@@ -83,7 +82,7 @@ pub(super) fn record_steps(
         let caught = scope.and_then(|scope| pollster::block_on(scope.pop()));
         recorded?;
         if let Some(error) = caught {
-            return Err(in_passes(&compiled.plan, step.passes, &error));
+            return Err(in_passes(&recording, step.passes, &error));
         }
         pass_on(buffer);
     }
@@ -93,8 +92,8 @@ pub(super) fn record_steps(
     Ok(prepared.finish(compiled, pool, read_backs))
 }
 
-fn in_passes(plan: &Plan, passes: &[PassId], error: &wgpu::Error) -> Error {
-    let names: Vec<String> = passes.iter().map(|&pass| format!("`{}`", plan.pass_path(pass))).collect();
+fn in_passes(recording: &Recording<'_>, passes: &[PassId], error: &wgpu::Error) -> Error {
+    let names: Vec<String> = passes.iter().map(|&pass| recording.pass_name(pass).to_string()).collect();
     let message = error.to_string();
     let lines: Vec<&str> = message.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
     Error::Validation { passes: names.join(", "), message: lines.join("; ") }

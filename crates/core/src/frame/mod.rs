@@ -17,9 +17,11 @@ use crate::declaration::{
 use crate::error::Error;
 use crate::handle::{NodeId, PassId, Token, Version};
 use crate::name::Name;
+use crate::pass_name::PassName;
 use crate::subresource::Subresource;
 use std::any::{Any, TypeId};
 use std::collections::HashMap;
+use std::panic::Location;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// A frame: the passes and resources declared so far.
@@ -93,6 +95,7 @@ impl<'f> Frame<'f> {
     }
 
     /// Adds a pass without accesses.
+    #[track_caller]
     pub(crate) fn add_pass(&mut self, name: impl Name, kind: PassKind) -> PassId {
         let id = PassId(self.decl.passes.len() as u32);
         let name = self.decl.names.push(name);
@@ -106,6 +109,7 @@ impl<'f> Frame<'f> {
             copies: (copies, copies),
             attachment: None,
         });
+        self.decl.places.0.push(Location::caller());
         #[cfg(feature = "gpu")]
         self.work.bodies.push(crate::context::Body::None);
         id
@@ -172,7 +176,7 @@ impl<'f> Frame<'f> {
 
     #[cold]
     fn report_stale_read(&mut self, pass: PassId, version: Version) {
-        let location = format!("pass `{}`", self.decl.pass_path(pass));
+        let location = format!("pass {}", self.decl.pass_name(pass));
         let error = self.stale_read(location, version);
         self.errors.push(error);
     }
@@ -180,7 +184,7 @@ impl<'f> Frame<'f> {
     #[cold]
     fn report_two_writers(&mut self, pass: PassId, version: Version) {
         self.errors.push(Error::TwoWriters {
-            pass: self.decl.pass_path(pass),
+            pass: self.decl.pass_name(pass),
             resource: self.decl.resource_path(version.resource),
             version: version.version,
             writer: self.writer_after(version),
@@ -190,7 +194,7 @@ impl<'f> Frame<'f> {
     /// Returns a token for a handle of another frame. No pass resolves it.
     #[cold]
     fn invalid_token(&mut self, pass: PassId, version: Version) -> Token {
-        let location = format!("pass `{}`", self.decl.pass_path(pass));
+        let location = format!("pass {}", self.decl.pass_name(pass));
         self.errors.push(Error::ForeignHandle { location });
         Token::new(version.frame, u32::MAX)
     }
@@ -204,7 +208,7 @@ impl<'f> Frame<'f> {
         if other < pass {
             self.decl.after.push((other, pass));
         } else {
-            self.errors.push(Error::Order { pass: self.decl.pass_path(pass), other: other.0 });
+            self.errors.push(Error::Order { pass: self.decl.pass_name(pass), other: other.0 });
         }
     }
 
@@ -241,7 +245,7 @@ impl<'f> Frame<'f> {
         let resource = &mut self.decl.resources[version.resource.index()];
         if let Some(problem) = subresource.problem(&resource.desc) {
             let error = Error::InvalidSubresource {
-                pass: self.decl.pass_path(pass),
+                pass: self.decl.pass_name(pass),
                 resource: self.decl.resource_path(version.resource),
                 subresource: subresource.to_string(),
                 problem,
@@ -269,9 +273,9 @@ impl<'f> Frame<'f> {
         }
     }
 
-    /// Returns the path of the pass that wrote the next version.
-    fn writer_after(&self, version: Version) -> String {
+    /// Returns the pass that wrote the next version.
+    fn writer_after(&self, version: Version) -> PassName {
         let writer = self.decl.writer(version.resource, version.version + 1);
-        writer.map(|pass| self.decl.pass_path(pass)).unwrap_or_default()
+        writer.map(|pass| self.decl.pass_name(pass)).unwrap_or_default()
     }
 }

@@ -36,6 +36,7 @@ impl<'f> Frame<'f> {
     /// assert_eq!(frame.compile()?.plan().order().len(), 2);
     /// # Ok::<(), shadowgraph_core::Error>(())
     /// ```
+    #[track_caller]
     pub fn upload_buffer(&mut self, name: impl Name, bytes: impl Into<Cow<'f, [u8]>>) -> Buffer {
         let bytes = bytes.into();
         let mut buffer = self.create_buffer(&name, BufferDesc::new(bytes.len() as u64));
@@ -137,6 +138,7 @@ impl<'f> Frame<'f> {
     /// let occlusion = frame.or_placeholder(None, Format::R8Unorm, white);
     /// assert_eq!(frame.texture_desc(&occlusion).map(|desc| desc.size.width), Some(1));
     /// ```
+    #[track_caller]
     pub fn or_placeholder(
         &mut self,
         texture: Option<&Texture>,

@@ -31,7 +31,8 @@ pub(crate) struct Plans {
 }
 
 impl Plans {
-    /// Returns the plan of a declaration, and replaces the declaration by memory for another.
+    /// Returns the plan of a declaration, and replaces the declaration, except for the places of passes, by memory for
+    /// another.
     pub(crate) fn plan(&mut self, decl: &mut Declaration) -> Result<Arc<Plan>, Error> {
         let mut similar = None;
         let mut other_clears = None;
@@ -69,6 +70,7 @@ impl Plans {
         if let Some(oldest) = oldest.and_then(Arc::into_inner) {
             *decl = oldest.decl;
         }
+        decl.places.clone_from(&plan.decl.places);
         let plan = Arc::new(plan);
         self.kept.insert(0, plan.clone());
         Ok(plan)

@@ -89,7 +89,11 @@ pub(crate) fn failures() -> Vec<Failure> {
         lost(),
         failure(
             "SG0104",
-            &["pass `b` uses `a` without", "belongs to `first`", "declare the access on `b`"],
+            &[
+                "pass `b` uses `a` without",
+                "belongs to `first`",
+                "declare the access on the pass that uses it",
+            ],
             |frame| {
                 let mut a = frame.create_texture("a", square());
                 let token = frame.render_pass("first").color(&mut a, Contents::clear_color([0.0; 4]));

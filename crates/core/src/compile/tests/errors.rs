@@ -1,10 +1,11 @@
 //! Errors of a frame: each names the pass, the resource and a fix.
 
 use super::helpers::{BLACK, color, filter, plan};
-use crate::{Contents, Error, Format, Frame, TextureDesc, TextureUsages};
+use crate::test_text::without_places;
+use crate::{Contents, Error, Format, Frame, PassName, TextureDesc, TextureUsages};
 
 fn message(frame: Frame<'_>) -> String {
-    frame.compile().err().expect("an error").to_string()
+    without_places(&frame.compile().err().expect("an error"))
 }
 
 #[test]
@@ -19,6 +20,23 @@ fn a_read_through_a_stale_handle_names_the_writer() {
     assert!(text.contains("`third` reads version 1 of `a`"), "{text}");
     assert!(text.contains("`second` has since written version 2"), "{text}");
     assert!(text.contains("use the handle that was passed to it by `&mut`"), "{text}");
+}
+
+#[test]
+fn each_pass_of_an_error_has_the_place_of_its_declaration() {
+    let mut frame = Frame::new();
+    let mut a = color(&mut frame, "a");
+    let mut clone = a.clone();
+    frame.render_pass("first").color(&mut a, BLACK);
+    let line = line!() - 1;
+    frame.node("node", |frame| frame.render_pass("second").color(&mut clone, BLACK));
+    let error = frame.compile().err().unwrap();
+    let Error::TwoWriters { pass, writer, .. } = &error else { panic!("{error}") };
+    let place = |name: &PassName| name.declared_at().map(|place| (place.file(), place.line()));
+    assert_eq!((writer.path(), pass.path()), ("first", "node/second"));
+    assert_eq!([place(writer), place(pass)], [line, line + 2].map(|line| Some((file!(), line))));
+    let named = format!("pass `node/second` ({}:{}:", file!(), line + 2);
+    assert!(error.to_string().contains(&named), "{error}");
 }
 
 #[test]
@@ -89,12 +107,13 @@ fn a_token_of_another_pass_does_not_resolve() {
     frame.export_texture(&a);
     let id = frame.id();
     let plan = plan(frame);
-    assert!(plan.resolve(id, first, token.0).is_ok());
-    let text = plan.resolve(id, second, token.0).unwrap_err().to_string();
+    let places = &plan.decl.places;
+    assert!(plan.resolve((id, places), first, token.0).is_ok());
+    let text = without_places(&plan.resolve((id, places), second, token.0).unwrap_err());
     assert!(text.contains("`second` uses `a` without declaring the access"), "{text}");
     assert!(text.contains("belongs to `first`"), "{text}");
-    assert!(text.contains("declare the access on `second`"), "{text}");
-    assert!(matches!(plan.resolve(id + 1, first, token.0), Err(Error::ForeignHandle { .. })));
+    assert!(text.contains("declare the access on the pass that uses it"), "{text}");
+    assert!(matches!(plan.resolve((id + 1, places), first, token.0), Err(Error::ForeignHandle { .. })));
 }
 
 #[test]

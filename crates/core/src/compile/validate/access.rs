@@ -8,7 +8,7 @@ use crate::handle::PassId;
 
 pub(super) fn check(decl: &Declaration, pass: PassId, access: &AccessDecl) -> Result<(), Error> {
     let resource = decl.resource(access.resource);
-    let names = || (decl.pass_path(pass), decl.resource_path(access.resource));
+    let names = || (decl.pass_name(pass), decl.resource_path(access.resource));
     if let ResourceDesc::Texture(desc) = &resource.desc
         && let Some(problem) = format_problem(access.access, desc)
     {
@@ -30,7 +30,7 @@ pub(super) fn check_clear(decl: &Declaration, pass: PassId, access: &AccessDecl)
     if let WriteMode::Clear(clear) = access.contents
         && let Some(problem) = clear_problem(access.access, decl.clears[clear as usize])
     {
-        let (pass, resource) = (decl.pass_path(pass), decl.resource_path(access.resource));
+        let (pass, resource) = (decl.pass_name(pass), decl.resource_path(access.resource));
         return Err(Error::Clear { pass, resource, problem });
     }
     Ok(())

@@ -22,7 +22,7 @@ impl Contents {
         }
         for access in decl.accesses(pass).iter().filter(|access| access.contents.writes()) {
             if matches!(decl.resource(access.resource).origin, Origin::Previous { .. }) {
-                let (pass, resource) = (decl.pass_path(pass), decl.resource_path(access.resource));
+                let (pass, resource) = (decl.pass_name(pass), decl.resource_path(access.resource));
                 return Err(Error::PreviousWritten { pass, resource });
             }
             self.0[access.resource.index()].add(decl.region(access));
@@ -54,7 +54,7 @@ impl Contents {
                     location: location.into(),
                     resource: name(),
                     version,
-                    writer: writer.map(|pass| decl.pass_path(pass)).unwrap_or_default(),
+                    writer: writer.map(|pass| decl.pass_name(pass)).unwrap_or_default(),
                     latest: resource.version,
                 });
             }
@@ -64,11 +64,11 @@ impl Contents {
 }
 
 fn undefined(decl: &Declaration, pass: PassId, access: &AccessDecl) -> Error {
-    let (pass, resource) = (decl.pass_path(pass), decl.resource_path(access.resource));
+    let (pass, resource) = (decl.pass_name(pass), decl.resource_path(access.resource));
     let subresource = decl.subresource(access).to_string();
     if access.contents == WriteMode::Preserve {
         Error::UndefinedPreserve { pass, resource, subresource }
     } else {
-        Error::UndefinedRead { location: format!("pass `{pass}`"), resource, subresource }
+        Error::UndefinedRead { location: format!("pass {pass}"), resource, subresource }
     }
 }

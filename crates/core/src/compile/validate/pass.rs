@@ -5,6 +5,7 @@ use crate::declaration::{AccessDecl, CopyOp, Declaration, PassKind};
 use crate::desc::{ResourceDesc, TextureDesc};
 use crate::error::Error;
 use crate::handle::PassId;
+use crate::pass_name::PassName;
 use crate::subresource::{Aspect, Region, Subresource};
 use wgpu_types::{Extent3d, TextureDimension};
 
@@ -31,8 +32,8 @@ struct Check<'d> {
 }
 
 impl<'d> Check<'d> {
-    fn path(&self) -> String {
-        self.decl.pass_path(self.id)
+    fn pass(&self) -> PassName {
+        self.decl.pass_name(self.id)
     }
 
     fn name(&self, access: &AccessDecl) -> String {
@@ -77,7 +78,7 @@ impl<'d> Check<'d> {
         match accesses[..index].iter().find(clash) {
             None => Ok(()),
             Some(other) => Err(Error::Conflict {
-                pass: self.path(),
+                pass: self.pass(),
                 resource: self.name(access),
                 first: self.describe(other),
                 second: self.describe(access),
@@ -105,13 +106,13 @@ impl<'d> Check<'d> {
                 && let Some(first) = depth.replace(access)
             {
                 let (first, second) = (self.name(first), self.name(access));
-                return Err(Error::SecondDepth { pass: self.path(), first, second });
+                return Err(Error::SecondDepth { pass: self.pass(), first, second });
             }
             match first {
                 None => first = Some((access, size, desc.samples)),
                 Some((other, own, samples)) if (own, samples) != (size, desc.samples) => {
                     return Err(Error::AttachmentMismatch {
-                        pass: self.path(),
+                        pass: self.pass(),
                         first: format!("`{}` is {}", self.name(other), format_size(own, samples)),
                         second: format!("`{}` is {}", self.name(access), format_size(size, desc.samples)),
                     });
@@ -119,7 +120,7 @@ impl<'d> Check<'d> {
                 Some(_) => {}
             }
         }
-        if first.is_none() { Err(Error::NoAttachment { pass: self.path() }) } else { Ok(()) }
+        if first.is_none() { Err(Error::NoAttachment { pass: self.pass() }) } else { Ok(()) }
     }
 
     /// Returns the size of the attached mip.
@@ -128,7 +129,7 @@ impl<'d> Check<'d> {
         let (mip, mip_end) = subresource.mips.unwrap_or((0, desc.mip_levels));
         let (layer, layer_end) = subresource.layers.unwrap_or((0, desc.size.depth_or_array_layers));
         if mip_end - mip != 1 || layer_end - layer != 1 {
-            let (pass, resource, subresource) = (self.path(), self.name(access), subresource.to_string());
+            let (pass, resource, subresource) = (self.pass(), self.name(access), subresource.to_string());
             return Err(Error::AttachmentSubresource { pass, resource, subresource });
         }
         let size = desc.size.mip_level_size(mip, desc.dimension);
@@ -170,7 +171,7 @@ impl<'d> Check<'d> {
                 )
             }
         };
-        Err(Error::Resolve { pass: self.path(), resource: self.name(access), problem })
+        Err(Error::Resolve { pass: self.pass(), resource: self.name(access), problem })
     }
 
     fn copies(&self) -> Result<(), Error> {
@@ -207,7 +208,7 @@ impl<'d> Check<'d> {
             format!("{subresource}`{}` ({})", self.name(access), end.describe())
         };
         Err(Error::CopyMismatch {
-            pass: self.path(),
+            pass: self.pass(),
             from: describe(source, &from),
             to: describe(target, &to),
             problem,

@@ -204,7 +204,7 @@ fn a_slice_is_not_drawn_into_while_another_is_sampled() {
     pass.subresource(Subresource::FULL.layer(1)).color(&mut volume, CLEAR);
     pass.keep();
     let error = graph.compile(frame).err().unwrap();
-    assert!(matches!(&error, Error::Conflict { pass, .. } if pass == "both"), "{error}");
+    assert!(matches!(&error, Error::Conflict { pass, .. } if pass.path() == "both"), "{error}");
 }
 
 #[test]
