@@ -9,10 +9,11 @@ use super::commands::{input, play};
 use super::console;
 use super::failure::Failure;
 use super::progress::Progress;
+use shadowgraph::inspect::PixelHistory;
 use shadowgraph::options::OptionError;
 use shadowgraph::output::write_text;
-use shadowgraph::{Gpu, Registry};
-use shadowgraph_quality::ShadowInspector;
+use shadowgraph::{Gpu, Registry, RenderConfig, Renderer, ViewOptions};
+use shadowgraph_quality::{PixelShadows, ShadowInspector};
 
 /// `shadowgraph pixel`
 pub(crate) fn pixel(args: &PixelArgs, registry: &Registry) -> Result<(), Failure> {
@@ -22,9 +23,7 @@ pub(crate) fn pixel(args: &PixelArgs, registry: &Registry) -> Result<(), Failure
     let gpu = Gpu::open(&input.options.adapter).map_err(Failure::no_device)?;
     let drawing = Progress::if_slow("drawing");
     let (mut renderer, view) = play(&gpu, input, args.frames, &drawing, &mut |_, _| Ok(()))?;
-    let (_, history) = renderer.pixel_history(&gpu, &view, args.pixel)?;
-    drawing.set("shadows", 0.5);
-    let shadows = ShadowInspector::new(&gpu, renderer.scene(), &view, &config)?.shadows_at(args.pixel)?;
+    let (history, shadows) = explained(&gpu, &mut renderer, (&view, &config), args.pixel)?;
     let text = if is_json {
         serde_json::to_string_pretty(&json!({ "history": history, "shadows": shadows }))? + "\n"
     } else {
@@ -37,6 +36,18 @@ pub(crate) fn pixel(args: &PixelArgs, registry: &Registry) -> Result<(), Failure
         }
         None => console::print(&text),
     }
+}
+
+/// Returns the history and the shadows of a pixel in a frame of a renderer, which `config` is of.
+pub(crate) fn explained(
+    gpu: &Gpu,
+    renderer: &mut Renderer,
+    (view, config): (&ViewOptions, &RenderConfig),
+    pixel: [u32; 2],
+) -> Result<(PixelHistory, PixelShadows), Failure> {
+    let (_, history) = renderer.pixel_history(gpu, view, pixel)?;
+    let shadows = ShadowInspector::new(gpu, renderer.scene(), view, config)?.shadows_at(pixel)?;
+    Ok((history, shadows))
 }
 
 /// Returns whether a file is JSON, not text, by its extension.

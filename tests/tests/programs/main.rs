@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout, reason = "tests")]
 
 mod bad_gltf;
+mod browser;
 mod check_values;
 mod dump;
 mod examples;

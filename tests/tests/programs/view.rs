@@ -2,7 +2,8 @@
 
 mod window;
 
-use crate::live_page::{Page, Serving, watch};
+use crate::browser::Page;
+use crate::live_page::{Serving, watch};
 use shadowgraph_tests::animated::{SKINNED, add_floor_and_camera};
 use shadowgraph_tests::{program, repository};
 use std::process::Command;
@@ -73,10 +74,21 @@ fn the_window_shows_the_scene_flies_swaps_techniques_and_opens_the_graph() {
     std::thread::sleep(Duration::from_secs(3));
     let graph = view.keep("4 graph");
 
-    view.tap(F2);
+    // Another page has the history of the pixel, as soon as there is one.
+    view.click_right([100, 200]);
     view.wait_for_change(&graph);
+    let lines = |screenshot: &Screenshot| {
+        let panel = image::imageops::crop_imm(screenshot, panel_left(screenshot), 100, 200, 250).to_image();
+        let is_text = |pixel: &&image::Rgb<u8>| pixel.0.iter().all(|&channel| channel > 100);
+        panel.pixels().filter(is_text).count()
+    };
+    view.until("the history of a pixel", |view| lines(&view.screenshot()) > 1000);
+    let pixel = view.keep("5 pixel");
+
+    view.tap(F2);
+    view.wait_for_change(&pixel);
     std::thread::sleep(Duration::from_secs(2));
-    view.keep("5 settings");
+    view.keep("6 settings");
 
     // The smallest size, hidden, and back.
     view.resize(1, 1);
@@ -88,7 +100,7 @@ fn the_window_shows_the_scene_flies_swaps_techniques_and_opens_the_graph() {
     view.x.map_window(view.window).unwrap();
     view.x.flush().unwrap();
     view.wait_for_change(&empty);
-    let back = view.keep("6 back");
+    let back = view.keep("7 back");
 
     let (status, errors) = view.close();
     assert!(status.success() && !errors.contains("panicked"), "{status}: {errors}");
@@ -322,6 +334,7 @@ fn the_window_is_watched_on_a_page_that_changes_the_technique() {
     watch(&mut page, "lighting/lit");
     page.value("liveView.ask({ pixel: [40, 100] })");
     page.until("liveView.history.textContent.includes('lighting/forward')");
+    page.until("liveView.history.textContent.includes('light 0 `sun` (directional)')");
     page.until("liveView.frames.length > 40");
     page.keep("live.png");
     page.value("liveView.ask({ choose: { name: 'technique', value: 'none' } })");
@@ -332,5 +345,11 @@ fn the_window_is_watched_on_a_page_that_changes_the_technique() {
         "{is_new} || (liveView.frames.length > 3 && !liveView.other.hidden && liveView.leave(''))"
     ));
     page.until("liveView.textures > 0 && liveView.wanted.texture === 'lighting/lit'");
+    // The passes of the pixel are a path through the graph.
+    page.value("liveView.ask({ pixel: [40, 100] })");
+    page.until("document.getElementById('path')");
+    page.value("document.getElementById('path').click()");
+    page.until("graphView.note.textContent.includes('of pixel 40,100') && chosen.path.length > 1");
+    page.keep("path.png");
     page.close();
 }

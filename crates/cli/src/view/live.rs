@@ -79,13 +79,13 @@ impl Live {
         });
     }
 
-    /// Returns the pixel whose history is wanted, once, if the image has it.
-    pub(super) fn take_pixel(&mut self, [width, height]: [u32; 2]) -> Option<[u32; 2]> {
-        self.pixel.take().filter(|[x, y]| *x < width && *y < height)
+    /// Returns the pixel whose history is wanted, once.
+    pub(super) fn take_pixel(&mut self) -> Option<[u32; 2]> {
+        self.pixel.take()
     }
 
-    pub(super) fn answer_pixel(&mut self, history: &PixelHistory) {
-        self.server.answer_pixel(history);
+    pub(super) fn answer_pixel(&mut self, history: &PixelHistory, shadows: &str) {
+        self.server.answer_pixel(history, shadows);
     }
 
     pub(super) fn begin_frame(&mut self, graph: &mut Graph) {

@@ -40,13 +40,14 @@ pub(super) struct Shown {
     pub(super) action: Option<Action>,
 }
 
-/// Page of the panel. F1 to F3 open them.
+/// Page of the panel. F1 to F4 open them.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 enum Page {
     #[default]
     Scene,
     Settings,
     Graph,
+    Pixel,
 }
 
 #[derive(Default)]
@@ -58,10 +59,11 @@ pub(super) struct Panel {
     graph: GraphPanel,
 }
 
-const PAGES: [(Page, Key, &str); 3] = [
+const PAGES: [(Page, Key, &str); 4] = [
     (Page::Scene, Key::F1, "Scene (F1)"),
     (Page::Settings, Key::F2, "Settings (F2)"),
     (Page::Graph, Key::F3, "Graph (F3)"),
+    (Page::Pixel, Key::F4, "Pixel (F4)"),
 ];
 
 impl Panel {
@@ -77,7 +79,7 @@ impl Panel {
         let mut action = None;
         let panel = egui::Panel::right("panel").default_size(400.0).size_range(200.0..=560.0);
         panel.show(ui, |ui| {
-            ui.horizontal(|ui| {
+            ui.horizontal_wrapped(|ui| {
                 for (page, _, name) in PAGES {
                     ui.selectable_value(&mut self.page, page, name);
                 }
@@ -99,6 +101,7 @@ impl Panel {
                 }
                 Page::Settings => action = self.settings.show(ui, stage),
                 Page::Graph => self.graph.show(ui, stage),
+                Page::Pixel => pixel(ui, stage),
             });
         });
         let frame = egui::Frame::NONE;
@@ -110,6 +113,12 @@ impl Panel {
                 if response.dragged() {
                     let moved = response.drag_delta();
                     stage.fly.turn(moved.x.into(), moved.y.into());
+                }
+                if response.secondary_clicked()
+                    && let Some(at) = response.interact_pointer_pos()
+                {
+                    let points = (at - response.rect.min).max(egui::Vec2::ZERO) * ui.ctx().pixels_per_point();
+                    (stage.picked, self.page) = (Some([points.x as u32, points.y as u32]), Page::Pixel);
                 }
                 if response.clicked() {
                     // Keys control the camera again.
@@ -192,6 +201,14 @@ pub(in crate::view) fn fly_input(input: &InputState) -> FlyInput {
         up: way([Key::E, Key::PageUp], [Key::Q, Key::PageDown]),
         ahead: way([Key::W, Key::ArrowUp], [Key::S, Key::ArrowDown]),
         fast: input.modifiers.shift,
+    }
+}
+
+/// Shows what is known of the pixel that was clicked.
+fn pixel(ui: &mut Ui, stage: &Stage) {
+    ui.weak("A right click on the image shows the passes that a pixel comes from, and its shadows.");
+    if let Some(text) = &stage.pixel {
+        ui.monospace(text);
     }
 }
 

@@ -11,6 +11,7 @@ use super::sun::Sun;
 use crate::args::{DrawArgs, ViewArgs};
 use crate::commands::{Input, load, shadow_camera};
 use crate::failure::Failure;
+use crate::pixel;
 use crate::recording;
 use shadowgraph::core::{Format, Plan, TimeHistory, Timer};
 use shadowgraph::options::{Aov, GroundChoice, OptionError, SettingsFile, ShadowDistance, SunChoice};
@@ -67,6 +68,10 @@ pub(super) struct Stage {
     watched_pipeline: Watched,
     watched_shaders: Watched,
     renderer: Option<Renderer>,
+    /// The pixel of the image that was clicked, until the next frame explains it.
+    pub(super) picked: Option<[u32; 2]>,
+    /// What the panel says about the last such pixel.
+    pub(super) pixel: Option<String>,
     /// The page about the frames, if it is served.
     pub(super) live: Option<Live>,
     /// Records frames, if they are, while no renderer does.
@@ -123,6 +128,8 @@ impl Stage {
             watched_pipeline: Watched::new(args.draw.pipeline_file().map(PathBuf::from)),
             watched_shaders: Watched::new(shaders),
             renderer: None,
+            picked: None,
+            pixel: None,
             live: None,
             recorder: input.recorder,
             record_mib: args.record.limit_mib(),
@@ -260,10 +267,9 @@ impl Stage {
         if let Err(error) = self.playback.apply([&mut self.scene, renderer.scene_mut()]) {
             self.file_error = Some(error.to_string());
         }
+        self.explain_pixels(gpu, &options);
+        let Some(renderer) = &mut self.renderer else { return Ok(()) };
         if let Some(live) = &mut self.live {
-            if let Some(pixel) = live.take_pixel(options.size_px) {
-                live.answer_pixel(&renderer.pixel_history(gpu, &options, pixel)?.1);
-            }
             live.begin_frame(&mut renderer.graph());
         }
         let mut timer = Timer::new();
@@ -287,15 +293,37 @@ impl Stage {
         Ok(())
     }
 
+    fn config(&self) -> RenderConfig {
+        let (technique, pipeline) = (Some(self.technique), self.pipeline.clone());
+        let (samples, background, culling) = (self.samples, self.background, self.culling);
+        RenderConfig { technique, pipeline, samples, background, culling }
+    }
+
+    /// Explains the pixel that was clicked in the window, and that on the page.
+    fn explain_pixels(&mut self, gpu: &Gpu, options: &ViewOptions) {
+        let [width, height] = options.size_px;
+        let on_page = self.live.as_mut().and_then(Live::take_pixel);
+        for (pixel, is_on_page) in [(self.picked.take(), false), (on_page, true)] {
+            let Some(pixel) = pixel.filter(|[x, y]| *x < width && *y < height) else { continue };
+            let config = self.config();
+            let Some(renderer) = &mut self.renderer else { continue };
+            match pixel::explained(gpu, renderer, (options, &config), pixel) {
+                Ok((history, shadows)) => match self.live.as_mut().filter(|_| is_on_page) {
+                    Some(live) => live.answer_pixel(&history, &shadows.to_text()),
+                    None => self.pixel = Some(format!("{}\n{}", history.to_text(), shadows.to_text())),
+                },
+                Err(failure) => self.file_error = Some(failure.message),
+            }
+        }
+    }
+
     /// Creates the renderer for the current choices. On failure the previous one stays, with its image.
     fn update_renderer(&mut self, gpu: &Gpu) -> Result<(), shadowgraph::Error> {
         let key = (self.technique, self.pipeline.clone(), self.aov.clone());
         if let Some((_, created)) = self.created.as_ref().filter(|(last, _)| *last == key) {
             return created.clone().map_err(shadowgraph::Error::Gpu);
         }
-        let (technique, pipeline) = (Some(self.technique), self.pipeline.clone());
-        let (samples, background, culling) = (self.samples, self.background, self.culling);
-        let config = RenderConfig { technique, pipeline, samples, background, culling };
+        let config = self.config();
         let created = gpu.checked(|| {
             Renderer::with_config(gpu, self.scene.clone(), self.fly.camera(), self.aov.clone(), config)
         });

@@ -192,9 +192,9 @@ impl Server {
         self.shared.add_frame(tick, report.times);
     }
 
-    /// Shows the history that a [`PageRequest::Pixel`] is for.
-    pub fn answer_pixel(&mut self, history: &PixelHistory) {
-        self.shared.set_pixel(history);
+    /// Shows the history that a [`PageRequest::Pixel`] is for, and what the program says about the shadows there, which can be nothing.
+    pub fn answer_pixel(&mut self, history: &PixelHistory, shadows: &str) {
+        self.shared.set_pixel(history, shadows);
     }
 
     /// Lets the watched texture be encoded, if it has arrived.

@@ -206,8 +206,9 @@ impl Shared {
         state.times = times;
     }
 
-    pub(super) fn set_pixel(&self, history: &PixelHistory) {
-        let message = serde_json::json!({ "pixel": history, "text": history.to_text() }).to_string();
+    pub(super) fn set_pixel(&self, history: &PixelHistory, shadows: &str) {
+        let text = history.to_text();
+        let message = serde_json::json!({ "pixel": history, "text": text, "shadows": shadows }).to_string();
         self.state().pixel.replace(message);
     }
 

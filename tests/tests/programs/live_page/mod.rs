@@ -1,13 +1,11 @@
 //! The page about a running program, used in headless Chromium.
 
-mod browser;
-
-pub(super) use browser::Page;
 use serde_json::Value;
 use std::io::{BufRead, BufReader};
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
+use crate::browser::Page;
 use crate::examples::example;
 
 /// A program that serves a page, until it is dropped.

@@ -4,12 +4,13 @@ mod frames;
 
 use serde_json::Value;
 use shadowgraph::inspect::to_html;
-use shadowgraph_tests::{on_path, program, skip};
+use shadowgraph_tests::program;
 use std::fs;
-use std::path::Path;
+use std::path::PathBuf;
 use std::process::Command;
 
-const BROWSERS: [&str; 3] = ["chromium", "chromium-browser", "google-chrome"];
+use crate::browser::{Page, installed};
+
 const FLAGS: [&str; 14] = [
     "--headless",
     "--no-sandbox",
@@ -30,18 +31,9 @@ const FLAGS: [&str; 14] = [
 /// The largest size of a page without images.
 const MOST_BYTES: usize = 1 << 20;
 
-/// Returns the name of a browser; `None` without one.
-pub(super) fn browser() -> Option<&'static str> {
-    let found = BROWSERS.into_iter().find(|name| on_path(name));
-    if found.is_none() {
-        skip("pages", "no Chromium is installed");
-    }
-    found
-}
-
 /// Opens a page with the driver appended, and returns the driver's results; `None` without a browser.
 fn used(page: &str) -> Option<Value> {
-    let browser = browser()?;
+    let browser = installed()?;
     let dir = tempfile::tempdir().unwrap();
     let file = dir.path().join("page.html");
     let driver = format!("<script>\n{}</script>\n</body>", include_str!("driver.js"));
@@ -110,9 +102,25 @@ fn the_page_of_a_frame_of_500_passes_is_readable() {
     assert!(found["facts"]["boxes"].as_u64() < Some(60), "{found}");
 }
 
+#[test]
+fn every_action_on_a_page_of_500_passes_is_answered_quickly() {
+    let file = keep(&to_html(&frames::large().unwrap()), "quick");
+    let Some(mut page) = Page::open(&format!("file://{}", file.display())) else { return };
+    page.until("typeof graphView === 'object' && graphView.content");
+    let times = page.value(include_str!("times.js"));
+    println!("worst times in ms: {times}");
+    let times = times.as_object().unwrap();
+    assert!(times.len() > 10, "{times:?}");
+    // 100 on an idle machine.
+    assert!(times.values().all(|ms| ms.as_f64().unwrap() < 1000.0), "{times:?}");
+    page.close();
+}
+
 /// Saves a page for a person to look at.
-fn keep(page: &str, name: &str) {
+fn keep(page: &str, name: &str) -> PathBuf {
     let dir = shadowgraph_tests::repository().join("target/tmp/pages");
     fs::create_dir_all(&dir).unwrap();
-    fs::write(Path::new(&dir).join(format!("{name}.html")), page).unwrap();
+    let file = dir.join(format!("{name}.html"));
+    fs::write(&file, page).unwrap();
+    file
 }

@@ -160,8 +160,20 @@ impl View {
     }
 
     pub(super) fn button(&self, kind: u8) {
-        self.x.xtest_fake_input(kind, 1, 0, self.root, 0, 0, 0).unwrap();
+        self.button_of(kind, 1);
+    }
+
+    fn button_of(&self, kind: u8, number: u8) {
+        self.x.xtest_fake_input(kind, number, 0, self.root, 0, 0, 0).unwrap();
         self.x.flush().unwrap();
+    }
+
+    /// Clicks the right button of the mouse at a point.
+    pub(super) fn click_right(&self, at: [i16; 2]) {
+        self.point(at);
+        std::thread::sleep(Duration::from_millis(500));
+        self.button_of(BUTTON_PRESS_EVENT, 3);
+        self.button_of(BUTTON_RELEASE_EVENT, 3);
     }
 
     /// Presses the button of the mouse at a point for a second.

@@ -58,6 +58,8 @@ function resourceDetails(index) {
 function drawDetails() {
   const panel = document.getElementById('details');
   const content = chosen?.pass != null ? passDetails(chosen.pass) : chosen?.resource != null ? resourceDetails(chosen.resource)
+    : chosen?.path ? [h('h2', {}, chosen.title), h('p', { class: 'why' }, 'The passes that contributed to it, from the image back:'),
+      h('ol', {}, chosen.path.map((pass) => h('li', {}, passLink(pass))))]
     : [h('h2', {}, 'Nothing selected'), h('p', { class: 'why' }, 'Select a pass or a resource, in any view or by its name.'),
       frame.notes.length > 0 && h('ul', {}, frame.notes.map((note) => h('li', {}, note)))];
   panel.replaceChildren(...[content].flat(4).filter(Boolean));

@@ -102,6 +102,10 @@ const graphView = {
   // The passes to show, and the links between them.
   shown() {
     if (this.whole || !chosen) return { of: new Set(passes.keys()), links };
+    if (chosen.path) {
+      const of = new Set(chosen.path);
+      return { of, links: links.filter((link) => of.has(link.before) && of.has(link.after)) };
+    }
     if (chosen.resource != null) {
       const own = users[chosen.resource].map((use) => use.pass);
       return { of: new Set(own), links: links.filter((link) => link.resource === chosen.resource) };
@@ -163,7 +167,7 @@ const graphView = {
     const missing = every.length - kept.filter((arrow) => arrow.points).length;
     this.note.textContent = whole
       ? `${counted(units.size, 'box', 'boxes')} for ${counted(passes.length, 'pass', 'passes')}. Click a box to open it or to see its neighbours.${missing ? ` ${missing} arrows are left out because others imply them or because they are long: select a pass to see all of its arrows.` : ''}`
-      : `${of.size} of ${counted(passes.length, 'pass', 'passes')}, around ${chosen.pass != null ? `“${passPath(chosen.pass)}”` : `“${resourceName(chosen.resource)}”`}.`;
+      : `${of.size} of ${counted(passes.length, 'pass', 'passes')}, ${chosen.path ? 'of' : 'around'} ${chosen.path ? chosen.title : chosen.pass != null ? `“${passPath(chosen.pass)}”` : `“${resourceName(chosen.resource)}”`}.`;
     this.outline.querySelectorAll('details').forEach((details) => { details.open = this.open.has(Number(details.dataset.group)); });
     this.fit();
   },

@@ -2,6 +2,8 @@
 
 const SHOWN_FRAMES = 600;
 
+const medianOf = (values) => values.sort((a, b) => a - b)[Math.floor(values.length / 2)];
+
 const liveView = {
   name: 'Live',
   frames: [],
@@ -97,8 +99,8 @@ const liveView = {
   showFrames(frames, times) {
     this.frames = [...this.frames, ...frames].slice(-SHOWN_FRAMES);
     const last = this.frames.at(-1);
-    const recent = this.frames.slice(-60).map((tick) => tick.interval_ms).sort((a, b) => a - b);
-    const median = recent[Math.floor(recent.length / 2)];
+    const recent = this.frames.slice(-60);
+    const median = medianOf(recent.map((tick) => tick.interval_ms));
     this.numbers.textContent = `frame ${last.number}, plan ${last.plan}: ${median.toFixed(1)} ms (median of ${recent.length}), ${bytes(last.bytes)}`;
     this.state.textContent = 'connected';
     this.drawStrip();
@@ -138,12 +140,14 @@ const liveView = {
     const { width, height } = this.strip;
     const context = this.strip.getContext('2d');
     const most = (of) => Math.max(...this.frames.map(of), 1e-9);
-    const [longest, memory] = [most((tick) => tick.interval_ms), most((tick) => tick.bytes)];
+    // Single frames that take much longer are cut off.
+    const longest = Math.min(most((tick) => tick.interval_ms), 4 * medianOf(this.frames.map((tick) => tick.interval_ms)));
+    const memory = most((tick) => tick.bytes);
     context.clearRect(0, 0, width, height);
     const left = width - this.frames.length;
     this.frames.forEach((tick, at) => {
       context.fillStyle = `hsl(${hueOf(`plan ${tick.plan}`)} 50% 55%)`;
-      const tall = Math.max(1, (tick.interval_ms / longest) * (height - 14));
+      const tall = Math.max(1, Math.min(1, tick.interval_ms / longest) * (height - 14));
       context.fillRect(left + at, height - tall, 1, tall);
     });
     context.strokeStyle = getComputedStyle(document.documentElement).getPropertyValue('--mark');
@@ -182,14 +186,22 @@ const liveView = {
   },
 
   // The passes that contributed to a pixel, from the image back.
-  showPixel({ text }) {
+  showPixel({ text, shadows }) {
     const byPath = new Map(passes.map((_, pass) => [passPath(pass), pass]));
+    const path = text.split('\n').flatMap((line) => byPath.get(line) ?? []);
     const blocks = text.trim().split('\n\n').map((block) => {
       const [head, ...lines] = block.split('\n');
       const pass = byPath.get(head);
       return h('section', {}, pass == null ? h('h3', {}, head) : passLink(pass), h('pre', {}, lines.join('\n')));
     });
-    this.history.replaceChildren(h('h2', {}, 'History of the pixel'), ...blocks);
+    const toGraph = () => {
+      choose({ path, title: text.split('\n')[0] });
+      graphView.whole = false;
+      show('Graph');
+    };
+    this.history.replaceChildren(
+      h('h2', {}, 'History of the pixel'), h('button', { id: 'path', onclick: toGraph }, 'Show the path in the graph'), ...blocks,
+      ...(shadows ? [h('h2', {}, 'Shadows'), h('pre', {}, shadows)] : []));
   },
 
   chosen() {},

@@ -1,6 +1,6 @@
 // Tabs, search and the selection.
 
-// {pass}, {resource} or null.
+// {pass}, {resource}, {path, title} (the passes of a pixel) or null.
 let chosen = null;
 
 const VIEWS = [...(frame.live ? [liveView] : []), graphView, timelineView, memoryView, passesView, texturesView, logView, ...frame.tables.map(tableView)];

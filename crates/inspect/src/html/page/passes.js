@@ -75,10 +75,16 @@ const passesView = {
     const compare = (a, b) => (a < b ? -1 : a > b ? 1 : 0);
     shown.sort((a, b) => sign * compare(this.by.value(a), this.by.value(b)) || rank[a] - rank[b]);
     this.heads.forEach((head, index) => head.setAttribute('aria-sort', this.columns[index] !== this.by ? 'none' : this.down ? 'descending' : 'ascending'));
-    this.body.replaceChildren(...shown.map((pass) => h('tr', { class: `${passes[pass].place ? '' : 'culled'}${chosen?.pass === pass ? ' chosen' : ''}` },
-      this.columns.map((column) => h('td', { class: column.number ? 'number' : null }, column.cell(pass))))));
+    this.rows = new Map(shown.map((pass) => [pass, h('tr', { class: passes[pass].place ? null : 'culled' },
+      this.columns.map((column) => h('td', { class: column.number ? 'number' : null }, column.cell(pass))))]));
+    this.body.replaceChildren(...this.rows.values());
+    this.chosen();
     this.count.textContent = `${shown.length} of ${counted(passes.length, 'pass', 'passes')}${timeSum(shown)}`;
   },
 
-  chosen() { this.draw(); },
+  chosen() {
+    this.row?.classList.remove('chosen');
+    this.row = this.rows.get(chosen?.pass);
+    this.row?.classList.add('chosen');
+  },
 };

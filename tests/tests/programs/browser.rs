@@ -1,7 +1,7 @@
 //! A page in headless Chromium, driven through its debugging protocol.
 
 use serde_json::{Value, json};
-use shadowgraph_tests::images;
+use shadowgraph_tests::{images, on_path, skip};
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
 use std::path::Path;
@@ -10,10 +10,19 @@ use std::time::{Duration, Instant};
 use tempfile::TempDir;
 use tungstenite::{Message, WebSocket, client};
 
-use crate::pages::browser;
+const BROWSERS: [&str; 3] = ["chromium", "chromium-browser", "google-chrome"];
 
 /// How long the page may take for anything.
 const TIMEOUT: Duration = Duration::from_secs(60);
+
+/// Returns the name of a browser; `None` without one.
+pub(crate) fn installed() -> Option<&'static str> {
+    let found = BROWSERS.into_iter().find(|name| on_path(name));
+    if found.is_none() {
+        skip("pages", "no Chromium is installed");
+    }
+    found
+}
 
 pub(crate) struct Page {
     browser: Child,
@@ -28,7 +37,7 @@ impl Page {
     /// Opens an address; `None` without a browser.
     pub(crate) fn open(url: &str) -> Option<Self> {
         let data = tempfile::tempdir().unwrap();
-        let mut browser = Command::new(browser()?)
+        let mut browser = Command::new(installed()?)
             .args(["--headless=new", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run"])
             .args(["--disable-background-networking", "--disable-component-update", "--disable-sync"])
             .args(["--disable-extensions", "--remote-debugging-port=0", "--window-size=1400,900"])
@@ -131,8 +140,8 @@ fn target(address: &str) -> String {
         let answer = String::from_utf8_lossy(&answer);
         let list = answer.split_once("\r\n\r\n").map_or("", |(_, body)| body);
         let pages: Vec<Value> = serde_json::from_str(list).unwrap_or_default();
-        let mut pages =
-            pages.iter().filter(|page| page["url"].as_str().is_some_and(|url| url.starts_with("http://127")));
+        let is_page = |url: &str| url.starts_with("http://127") || url.starts_with("file:");
+        let mut pages = pages.iter().filter(|page| page["url"].as_str().is_some_and(is_page));
         if let Some(url) = pages.next().and_then(|page| page["webSocketDebuggerUrl"].as_str()) {
             return url.to_owned();
         }
