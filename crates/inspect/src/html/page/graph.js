@@ -4,6 +4,8 @@
 const groups = nodes.map((node) => ({ name: node.name, parent: node.parent, node: true }));
 const FEW = 40;
 const MERGED = 4;
+// Pixels around the view in which boxes are drawn too.
+const BEYOND = 300;
 const loose = passes.map((_, pass) => pass).filter((pass) => passes[pass].node == null);
 const looseGroup = new Map();
 if (loose.length > FEW) {
@@ -131,6 +133,8 @@ const graphView = {
   },
 
   draw() {
+    // Measured before the content changes, so that it is laid out once, at its scale.
+    const box = this.svg.getBoundingClientRect();
     const whole = this.whole || !chosen;
     const { of, links: drawn } = this.shown();
     const units = new Map();
@@ -169,7 +173,7 @@ const graphView = {
       ? `${counted(units.size, 'box', 'boxes')} for ${counted(passes.length, 'pass', 'passes')}. Click a box to open it or to see its neighbours.${missing ? ` ${missing} arrows are left out because others imply them or because they are long: select a pass to see all of its arrows.` : ''}`
       : `${of.size} of ${counted(passes.length, 'pass', 'passes')}, ${chosen.path ? 'of' : 'around'} ${chosen.path ? chosen.title : chosen.pass != null ? `“${passPath(chosen.pass)}”` : `“${resourceName(chosen.resource)}”`}.`;
     this.outline.querySelectorAll('details').forEach((details) => { details.open = this.open.has(Number(details.dataset.group)); });
-    this.fit();
+    this.fit(false, box);
   },
 
   paint(units, arrows, whole) {
@@ -177,10 +181,26 @@ const graphView = {
     // Around a pass, arrows between its neighbours are faint.
     const own = whole || chosen.pass == null ? null : units.find((unit) => unit.pass === chosen.pass).place;
     const near = (arrow) => own == null || arrow.from === own || arrow.to === own;
-    const lines = arrows.filter((arrow) => arrow.points).sort((a, b) => near(a) - near(b)).map((arrow) => this.arrow(arrow, labels && near(arrow), near(arrow)));
     const arrowhead = (id, orient) => s('marker', { id, viewBox: '0 0 8 8', refX: 7, refY: 4, markerWidth: 7, markerHeight: 7, orient },
       s('path', { d: 'M0 0L8 4L0 8z', fill: 'var(--faint)' }));
-    this.content = s('g', {}, lines.map((line) => line.line), lines.map((line) => line.label), units.map((unit) => this.unit(unit)));
+    const layers = Array.from({ length: 3 }, () => s('g', {}));
+    this.content = s('g', {}, layers);
+    const lines = arrows.filter((arrow) => arrow.points).sort((a, b) => near(a) - near(b)).map((arrow) => {
+      const [across, down] = [arrow.points.map((point) => point.x), arrow.points.map((point) => point.y)];
+      return {
+        from: [Math.min(...across), Math.min(...down)], to: [Math.max(...across), Math.max(...down)],
+        add: () => {
+          const { line, label } = this.arrow(arrow, labels && near(arrow), near(arrow));
+          layers[0].append(line);
+          layers[1].append(label);
+        },
+      };
+    });
+    const boxes = units.map((unit) => ({
+      from: [unit.x, unit.y - 16], to: [unit.x + BOX.width, unit.y + BOX.height], add: () => layers[2].append(this.unit(unit)),
+    }));
+    this.waiting = [...lines, ...boxes];
+    this.target = units.find((unit) => unit.pass != null && unit.pass === chosen?.pass);
     this.svg.replaceChildren(s('defs', {}, arrowhead('ahead', 'auto'), arrowhead('behind', 'auto-start-reverse')), this.content);
     this.size = {
       width: Math.max(1, ...units.map((unit) => unit.x + BOX.width)),
@@ -232,14 +252,21 @@ const graphView = {
     outer ? s('text', { class: 'small label', x: 2, y: -3 }, outer) : '');
   },
 
+  // Moves the graph to where it is looked at. Boxes and arrows are added when they come near: large graphs have thousands of texts.
   place() {
     const { x, y, scale } = this.view;
     this.content.setAttribute('transform', `translate(${x} ${y}) scale(${scale})`);
+    const [left, top] = [(-x - BEYOND) / scale, (-y - BEYOND) / scale];
+    const [right, bottom] = [left + (this.width + 2 * BEYOND) / scale, top + (this.height + 2 * BEYOND) / scale];
+    this.waiting = this.waiting.filter(({ from, to, add }) => {
+      const isNear = to[0] > left && from[0] < right && to[1] > top && from[1] < bottom;
+      if (isNear) add();
+      return !isNear;
+    });
   },
 
-  fit(all = false) {
-    this.all = all;
-    const { width, height } = this.svg.getBoundingClientRect();
+  fit(all = false, { width, height } = this.svg.getBoundingClientRect()) {
+    [this.all, this.width, this.height] = [all, width, height];
     if (!width) return;
     const whole = Math.min(1.15, (width - 40) / this.size.width, (height - 50) / this.size.height);
     // Not so small that names cannot be read, unless the whole graph is requested.
@@ -253,10 +280,9 @@ const graphView = {
 
   // Scrolls to the selection if the graph does not fit.
   centre(width, height) {
-    const transform = this.content.querySelector('.chosen')?.transform.baseVal[0].matrix;
-    if (!transform || (this.size.width * this.view.scale < width && this.size.height * this.view.scale < height)) return;
-    this.view.x = width / 2 - (transform.e + BOX.width / 2) * this.view.scale;
-    this.view.y = height / 2 - (transform.f + BOX.height / 2) * this.view.scale;
+    if (!this.target || (this.size.width * this.view.scale < width && this.size.height * this.view.scale < height)) return;
+    this.view.x = width / 2 - (this.target.x + BOX.width / 2) * this.view.scale;
+    this.view.y = height / 2 - (this.target.y + BOX.height / 2) * this.view.scale;
   },
 
   zoom(by, at) {
