@@ -6,6 +6,8 @@ mod snapshot;
 pub use snapshot::{Drawing, Outline};
 
 use data::FrameData;
+#[cfg(feature = "serve")]
+use flate2::Compression;
 use serde::Serialize;
 use shadowgraph_core::{PassTime, Plan, TextureSnapshot};
 
@@ -133,10 +135,11 @@ impl<'p> HtmlPage<'p> {
     }
 }
 
-/// Returns the data of a snapshot for the script, as JSON.
+/// Returns the data of a snapshot for the script, as JSON. It is compressed in little time, as it is sent many times a second.
 #[cfg(feature = "serve")]
 pub(crate) fn snapshot_json(plan: &Plan, snapshot: &TextureSnapshot) -> String {
-    serde_json::to_string(&snapshot::SnapshotData::new(plan, snapshot)).unwrap_or_default()
+    serde_json::to_string(&snapshot::SnapshotData::new(plan, snapshot, Compression::fast()))
+        .unwrap_or_default()
 }
 
 /// Escapes text for HTML, in an element or in quotes.

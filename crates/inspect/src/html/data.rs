@@ -3,6 +3,7 @@
 use super::snapshot::SnapshotData;
 use super::{Drawing, HtmlPage, LivePage, PageTable};
 use crate::explain::{describe_origin, usages};
+use flate2::Compression;
 use serde::Serialize;
 use shadowgraph_core::describe::{Positions, shape, verb};
 use shadowgraph_core::{
@@ -147,7 +148,11 @@ impl<'p> FrameData<'p> {
             edges: plan.dependencies().iter().map(edge).collect(),
             tables: &page.tables,
             drawings: &page.drawings,
-            snapshots: page.snapshots.iter().map(|snapshot| SnapshotData::new(plan, snapshot)).collect(),
+            snapshots: page
+                .snapshots
+                .iter()
+                .map(|snapshot| SnapshotData::new(plan, snapshot, Compression::default()))
+                .collect(),
             live: page.live,
         }
     }

@@ -64,7 +64,7 @@ struct TileData<'p> {
 }
 
 impl<'p> SnapshotData<'p> {
-    pub(super) fn new(plan: &Plan, snapshot: &'p TextureSnapshot) -> Self {
+    pub(super) fn new(plan: &Plan, snapshot: &'p TextureSnapshot, compression: Compression) -> Self {
         let rect = snapshot.subresource.bounds();
         let texels = snapshot.texels.as_ref();
         let [width, height] = texels.map_or([0, 0], |texels| texels.size_px);
@@ -95,15 +95,15 @@ impl<'p> SnapshotData<'p> {
             floats: texels.is_ok_and(|texels| matches!(texels.values, TexelValues::Floats(_))),
             integers,
             since: snapshot.since,
-            data: texels.map(to_base64).unwrap_or_default(),
+            data: texels.map(|texels| to_base64(texels, compression)).unwrap_or_default(),
             tiles: snapshot.tiles.iter().map(|tile| TileData { rect: tile.rect, name: &tile.name }).collect(),
         }
     }
 }
 
 /// Returns the values, compressed by zlib, in base64.
-fn to_base64(texels: &Texels) -> String {
-    let mut encoder = ZlibEncoder::new(Vec::new(), Compression::default());
+fn to_base64(texels: &Texels, compression: Compression) -> String {
+    let mut encoder = ZlibEncoder::new(Vec::new(), compression);
     // Writing into memory does not fail.
     let _written = match &texels.values {
         TexelValues::Bytes(bytes) => encoder.write_all(bytes),

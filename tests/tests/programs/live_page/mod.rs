@@ -1,5 +1,7 @@
 //! The page about a running program, used in headless Chromium.
 
+mod many_passes;
+
 use serde_json::Value;
 use std::io::{BufRead, BufReader};
 use std::process::{Child, Command, Stdio};
