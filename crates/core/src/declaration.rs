@@ -7,7 +7,7 @@ use crate::access::{Access, ClearValue, Contents};
 use crate::desc::ResourceDesc;
 use crate::handle::{NodeId, PassId, ResourceId};
 use crate::name::{Names, Text};
-use crate::pass_name::{PassName, Places};
+use crate::pass_name::{PassName, SourceLocations};
 use crate::subresource::{Region, Subresource};
 use serde::Serialize;
 use std::ops::Range;
@@ -240,7 +240,7 @@ pub(crate) struct Declaration {
     pub(crate) options: Options,
     pub(crate) resources: Vec<ResourceDecl>,
     pub(crate) passes: Vec<PassDecl>,
-    pub(crate) places: Places,
+    pub(crate) places: SourceLocations,
     pub(crate) accesses: Vec<AccessDecl>,
     pub(crate) nodes: Vec<NodeDecl>,
     pub(crate) subresources: Vec<SubresourceDecl>,
@@ -374,7 +374,7 @@ impl Declaration {
     }
 
     /// Returns the pass of a frame with other places for an error.
-    pub(crate) fn pass_name_at(&self, id: PassId, places: &Places) -> PassName {
+    pub(crate) fn pass_name_at(&self, id: PassId, places: &SourceLocations) -> PassName {
         PassName::new(self.pass_path(id), places.0.get(id.index()).copied())
     }
 

@@ -4,13 +4,13 @@ use std::fmt;
 use std::panic::Location;
 
 /// The place in the source that declared a pass.
-pub(crate) type Place = &'static Location<'static>;
+pub(crate) type SourceLocation = &'static Location<'static>;
 
 /// The places of all passes of a frame. Frames that differ only in them share a plan, so they are equal.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Places(pub(crate) Vec<Place>);
+pub(crate) struct SourceLocations(pub(crate) Vec<SourceLocation>);
 
-impl PartialEq for Places {
+impl PartialEq for SourceLocations {
     fn eq(&self, _: &Self) -> bool {
         true
     }
@@ -22,11 +22,11 @@ impl PartialEq for Places {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct PassName {
     path: String,
-    declared_at: Option<Place>,
+    declared_at: Option<SourceLocation>,
 }
 
 impl PassName {
-    pub(crate) fn new(path: String, declared_at: Option<Place>) -> Self {
+    pub(crate) fn new(path: String, declared_at: Option<SourceLocation>) -> Self {
         Self { path, declared_at }
     }
 

@@ -18,7 +18,7 @@ use crate::error::Error;
 use crate::handle::Token;
 use crate::handle::{NodeId, PassId, ResourceId, SlotId};
 #[cfg(any(feature = "gpu", test))]
-use crate::pass_name::Places;
+use crate::pass_name::SourceLocations;
 use crate::subresource::{Region, Subresource};
 use serde::Serialize;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -445,7 +445,7 @@ impl Plan {
     #[cfg(any(feature = "gpu", test))]
     pub(crate) fn resolve(
         &self,
-        (frame, places): (u64, &Places),
+        (frame, places): (u64, &SourceLocations),
         pass: PassId,
         token: Token,
     ) -> Result<ResourceId, Error> {

@@ -197,7 +197,7 @@ fn interior() -> Objects {
         wall([-x - WALL, 0.9, from], [-x, 2.2, to]);
     }
     room.append_translated(&box_on_ground(1.6, 0.75, 0.9), DVec3::new(-0.8, 0.0, 0.0));
-    vec![ground(30.0), ("room", room)]
+    vec![ground(30.0), ("walls", room)]
 }
 
 fn cornell() -> Objects {
@@ -213,7 +213,7 @@ fn cornell() -> Objects {
     let mut boxes = MeshBuilder::default();
     boxes.append(&box_on_ground(1.2, 1.2, 1.2), turned_to(DVec3::new(0.75, 0.0, 0.6), -18.0));
     boxes.append(&box_on_ground(1.2, 2.4, 1.2), turned_to(DVec3::new(-0.7, 0.0, -0.7), 20.0));
-    vec![("room", room), ("boxes", boxes)]
+    vec![("walls", room), ("boxes", boxes)]
 }
 
 fn turned_to(position: DVec3, degrees: f64) -> DAffine3 {

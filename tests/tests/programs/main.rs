@@ -4,6 +4,7 @@
 mod bad_gltf;
 mod browser;
 mod check_values;
+mod drivers;
 mod dump;
 mod examples;
 mod first_image;

@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use crate::handle::{PassId, ResourceId};
-use crate::pass_name::{PassName, Places};
+use crate::pass_name::{PassName, SourceLocations};
 use crate::plan::Plan;
 use crate::pool::{PhysicalResource, Pool, ResolvedPlan};
 use crate::shader_pass::ShaderPasses;
@@ -13,7 +13,7 @@ pub(crate) struct Recording<'a> {
     pub(crate) plan: &'a Plan,
     pub(crate) frame: u64,
     /// The places of the frame's passes, which can be others than those of the plan.
-    pub(crate) places: &'a Places,
+    pub(crate) places: &'a SourceLocations,
     pub(crate) resolved: &'a ResolvedPlan,
     pub(crate) pool: &'a Pool,
     pub(crate) device: &'a wgpu::Device,

@@ -46,6 +46,8 @@ pub(super) fn changes(settings: &ShadowSettings, is_directional: bool) -> Vec<(S
     }
     let supersample = !settings.supersample;
     change(format!("supersample: {supersample}"), &|changed| changed.supersample = supersample);
+    let close_creases = !settings.close_creases;
+    change(format!("close_creases: {close_creases}"), &|changed| changed.close_creases = close_creases);
     change("cull: (unseen: false, covered: false)".into(), &|changed| changed.cull = CullSettings::NONE);
     if let Ok(own) = settings.techniques.get::<VirtualSettings>() {
         let mut virtual_change = |name: String, own: VirtualSettings| {

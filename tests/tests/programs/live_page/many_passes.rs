@@ -73,13 +73,13 @@ impl Drop for Client {
     }
 }
 
-/// The times of frames in milliseconds.
+/// Returns the median of the times of frames.
 fn median(frames: &mut [f64]) -> f64 {
     frames.sort_by(f64::total_cmp);
     frames[frames.len() / 2]
 }
 
-/// Draws frames of a chain of passes until it is told to end, and sends the time of each.
+/// Draws frames of a chain of passes until `ends`, and sends the time of each.
 fn draw(gpu: &Gpu, mut server: Server, ends: &AtomicBool, times: &mpsc::Sender<f64>) {
     let shader = FullscreenShader::wgsl("soften", SHADER);
     let mut graph = Graph::new();
