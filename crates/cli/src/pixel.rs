@@ -9,6 +9,7 @@ use super::commands::{input, play};
 use super::console;
 use super::failure::Failure;
 use super::progress::Progress;
+use super::replay;
 use shadowgraph::inspect::PixelHistory;
 use shadowgraph::options::OptionError;
 use shadowgraph::output::write_text;
@@ -18,12 +19,22 @@ use shadowgraph_quality::{PixelShadows, ShadowInspector};
 /// `shadowgraph pixel`
 pub(crate) fn pixel(args: &PixelArgs, registry: &Registry) -> Result<(), Failure> {
     let is_json = args.output.as_deref().map_or(Ok(false), is_json)?;
-    let input = input(&args.draw, registry)?;
-    let config = input.options.render_config();
-    let gpu = Gpu::open(&input.options.adapter).map_err(Failure::no_device)?;
-    let drawing = Progress::if_slow("drawing");
-    let (mut renderer, view) = play(&gpu, input, args.frames, &drawing, &mut |_, _| Ok(()))?;
-    let (history, shadows) = explained(&gpu, &mut renderer, (&view, &config), args.pixel)?;
+    let (history, shadows) = match &args.replay.file {
+        Some(file) => {
+            replay::with_frame((file, &args.draw, registry), args.replay.frame, |gpu, renderer, view| {
+                let config = renderer.config().clone();
+                explained(gpu, renderer, (view, &config), args.pixel)
+            })?
+        }
+        None => {
+            let input = input(&args.draw, registry)?;
+            let config = input.options.render_config();
+            let gpu = Gpu::open(&input.options.adapter).map_err(Failure::no_device)?;
+            let drawing = Progress::if_slow("drawing");
+            let (mut renderer, view) = play(&gpu, input, args.frames, &drawing, &mut |_, _| Ok(()))?;
+            explained(&gpu, &mut renderer, (&view, &config), args.pixel)?
+        }
+    };
     let text = if is_json {
         serde_json::to_string_pretty(&json!({ "history": history, "shadows": shadows }))? + "\n"
     } else {

@@ -1,4 +1,4 @@
-//! `shadowgraph render --replay`.
+//! Frames that were recorded: `--replay`.
 
 use std::path::Path;
 
@@ -16,22 +16,15 @@ use shadowgraph::options::{AdapterChoice, GroundChoice, OptionError};
 use shadowgraph::output::write_png;
 use shadowgraph::recording::{Recording, RecordingError};
 use shadowgraph::scene::Scene;
-use shadowgraph::{Gpu, Registry, Replay};
+use shadowgraph::{Gpu, Registry, Renderer, Replay, ViewOptions};
 
 /// `shadowgraph render --replay`
 pub(crate) fn replay(file: &Path, args: &RenderArgs, registry: &Registry) -> Result<(), Failure> {
     check_output(&args.output)?;
     let files = FrameFiles::parse(&args.output)?;
-    use_shaders(&args.draw)?;
     let ranges = args.check_values.as_deref();
     let check_values = ranges.map(values::parse).transpose()?;
-    let adapter: AdapterChoice = args.draw.adapter.as_deref().map_or(Ok(Default::default()), str::parse)?;
-    let recording = Recording::load(file).map_err(|error| OptionError::new("replay", error.to_string()))?;
-    let scene = scene(&recording, &args.draw).map_err(|failure| Failure {
-        message: format!("--replay: {}: {}", file.display(), failure.message),
-        ..failure
-    })?;
-    let gpu = Gpu::open(&adapter).map_err(Failure::no_device)?;
+    let (gpu, recording, scene) = open(file, &args.draw)?;
     let count = recording.frame_count();
     let frames = match (args.replay.frame, &files) {
         (Some(frame), _) => frame as usize..frame as usize + 1,
@@ -39,7 +32,6 @@ pub(crate) fn replay(file: &Path, args: &RenderArgs, registry: &Registry) -> Res
         (None, FrameFiles::Last(_)) => count - 1..count,
     };
     let drawing = Progress::if_slow("drawing");
-    let failed = |error: RecordingError| OptionError::new("replay", error.to_string());
     let mut replay = Replay::new(&recording, scene, registry).map_err(failed)?;
     let mut findings = Findings::default();
     let mut size_px = [0; 2];
@@ -47,10 +39,7 @@ pub(crate) fn replay(file: &Path, args: &RenderArgs, registry: &Registry) -> Res
         let observe =
             &mut |at: usize| drawing.set(&format!("frame {at} of {count}"), at as f32 / count as f32);
         let (renderer, views) = replay.seek_observed(&gpu, number, observe).map_err(failed)?;
-        let [view] = views else {
-            let reason = format!("frame {number} has {} views; the program draws one", views.len());
-            return Err(OptionError::new("replay", reason).into());
-        };
+        let view = only(views, number)?;
         renderer.graph().check_values(check_values.clone());
         let drawn = renderer.draw(&gpu, view)?;
         ranges.map_or(Ok(()), |ranges| values::check_names(ranges, &drawn))?;
@@ -67,6 +56,45 @@ pub(crate) fn replay(file: &Path, args: &RenderArgs, registry: &Registry) -> Res
     let sequence = if drawn > 1 { format!("{drawn} frames, ") } else { format!("frame {}, ", frames.start) };
     console::print(&format!("wrote {file}: {sequence}{width}x{height}, rendered by {adapter}\n"))?;
     if ranges.is_some() { findings.finish(drawn as u32) } else { Ok(()) }
+}
+
+/// Draws the frames before one of a recording, by default its last, and hands over the renderer and the view of that frame.
+pub(crate) fn with_frame<T>(
+    (file, args, registry): (&Path, &DrawArgs, &Registry),
+    number: Option<u32>,
+    use_frame: impl FnOnce(&Gpu, &mut Renderer, &ViewOptions) -> Result<T, Failure>,
+) -> Result<T, Failure> {
+    let (gpu, recording, scene) = open(file, args)?;
+    let number = number.map_or(recording.frame_count() - 1, |number| number as usize);
+    let mut replay = Replay::new(&recording, scene, registry).map_err(failed)?;
+    let (renderer, views) = replay.seek_observed(&gpu, number, &mut |_| ()).map_err(failed)?;
+    use_frame(&gpu, renderer, only(views, number)?)
+}
+
+fn failed(error: RecordingError) -> OptionError {
+    OptionError::new("replay", error.to_string())
+}
+
+/// Returns the view of a frame of one view.
+fn only(views: &[ViewOptions], number: usize) -> Result<&ViewOptions, OptionError> {
+    let [view] = views else {
+        let reason = format!("frame {number} has {} views; the program draws one", views.len());
+        return Err(OptionError::new("replay", reason));
+    };
+    Ok(view)
+}
+
+/// Opens the GPU, a recording, and its scene.
+fn open(file: &Path, args: &DrawArgs) -> Result<(Gpu, Recording, Scene), Failure> {
+    use_shaders(args)?;
+    let adapter: AdapterChoice = args.adapter.as_deref().map_or(Ok(Default::default()), str::parse)?;
+    let recording = Recording::load(file).map_err(failed)?;
+    let scene = scene(&recording, args).map_err(|failure| Failure {
+        message: format!("--replay: {}: {}", file.display(), failure.message),
+        ..failure
+    })?;
+    let gpu = Gpu::open(&adapter).map_err(Failure::no_device)?;
+    Ok((gpu, recording, scene))
 }
 
 /// Loads the scene of a recording.

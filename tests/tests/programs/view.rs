@@ -6,6 +6,7 @@ use crate::browser::Page;
 use crate::live_page::{Serving, watch};
 use shadowgraph_tests::animated::{SKINNED, add_floor_and_camera};
 use shadowgraph_tests::{program, repository};
+use std::path::Path;
 use std::process::Command;
 use std::time::{Duration, Instant};
 use window::{Display, Screenshot, View, changed};
@@ -317,6 +318,9 @@ fn row_43_the_end_of_a_cascade_is_dragged_in_the_window() {
 #[test]
 fn the_window_is_watched_on_a_page_that_changes_the_technique() {
     let Some(display) = Display::open() else { return };
+    let dir = tempfile::tempdir().unwrap();
+    let recording = dir.path().join("page.frames");
+    let recording = recording.to_str().unwrap();
     let mut command = Command::new(program().unwrap());
     command.args([
         "view",
@@ -328,6 +332,8 @@ fn the_window_is_watched_on_a_page_that_changes_the_technique() {
         "minimal_lit",
         "--serve",
         "0",
+        "--record",
+        recording,
     ]);
     let serving = Serving::start(command.env("DISPLAY", &display.name).env_remove("WAYLAND_DISPLAY"));
     let Some(mut page) = Page::open(&serving.url) else { return };
@@ -351,5 +357,18 @@ fn the_window_is_watched_on_a_page_that_changes_the_technique() {
     page.value("document.getElementById('path').click()");
     page.until("graphView.note.textContent.includes('of pixel 40,100') && chosen.path.length > 1");
     page.keep("path.png");
+    // The recording so far explains a pixel of one of its frames in another process.
+    page.value("document.getElementById('save-recording').click()");
+    let begun = Instant::now();
+    while !Path::new(recording).exists() {
+        assert!(begun.elapsed() < Duration::from_secs(60), "the recording is not saved");
+        std::thread::sleep(Duration::from_millis(100));
+    }
     page.close();
+    let mut pixel = Command::new(program().unwrap());
+    pixel.args(["pixel", "40,100", "--adapter", "cpu", "--replay", recording, "--frame", "2"]);
+    let output = pixel.output().unwrap();
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(text.contains("lighting/forward") && text.contains("light 0 `sun` (directional)"), "{text}");
 }

@@ -88,11 +88,11 @@ impl RecordArgs {
 /// The recorded frame that is drawn again.
 #[derive(Clone, Debug, Args)]
 pub(crate) struct ReplayArgs {
-    /// Draw frames again that --record has recorded, to the bit on the same adapter: the last one, or all if the output has a number
+    /// Draw a frame again that --record has recorded, to the bit on the same adapter: the last one, or that of --frame; render draws
+    /// all if the output has a number
     #[arg(id = "replay", long = "replay", value_name = "FILE", conflicts_with_all = [
         "scene", "procedural", "variant", "pipeline", "set", "technique", "samples", "settings", "tracks", "size", "camera", "sun", "ground",
-        "background", "culling", "time", "animation", "shadow_distance", "aov", "overlay", "shadow_camera", "timings", "count", "fps", "stop_at",
-        "record", "record_mib",
+        "background", "culling", "time", "animation", "shadow_distance", "aov", "overlay", "shadow_camera", "timings", "count", "fps",
     ])]
     pub(crate) file: Option<PathBuf>,
     /// With --replay: the number of the frame, from 0
@@ -102,6 +102,7 @@ pub(crate) struct ReplayArgs {
 
 /// `shadowgraph render`
 #[derive(Debug, Args)]
+#[command(mut_arg("record", |record| record.conflicts_with("replay")))]
 pub(crate) struct RenderArgs {
     #[command(flatten)]
     pub(crate) draw: DrawArgs,
@@ -242,6 +243,8 @@ pub(crate) struct PixelArgs {
     pub(crate) draw: DrawArgs,
     #[command(flatten)]
     pub(crate) frames: FramesArgs,
+    #[command(flatten)]
+    pub(crate) replay: ReplayArgs,
     /// The output file, text or, with the extension json, JSON; missing directories are created. Default: text on standard output
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,

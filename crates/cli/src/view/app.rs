@@ -83,6 +83,11 @@ impl App {
             self.stage.fly.update(input, seconds);
         }
         let action = screen.draw(&mut self.stage)?;
+        if let (Some(file), Some(recorder)) = (&self.record, self.stage.recording_to_save())
+            && let Err(failure) = recording::write(file, recorder)
+        {
+            self.stage.file_error = Some(failure.message);
+        }
         screen.update_title(&self.stage);
         screen.window.request_redraw();
         match action {

@@ -16,6 +16,8 @@ const STEP_S: f64 = 1.0 / 60.0;
 pub(super) struct Adjustable<'s> {
     pub(super) technique: &'s mut Technique,
     pub(super) distance_m: &'s mut f32,
+    /// Whether frames are recorded, which the page can have saved.
+    pub(super) is_recording: bool,
 }
 
 /// The server of the page, and the requests of pages that wait.
@@ -26,11 +28,13 @@ pub(super) struct Live {
     steps: u32,
     /// The pixel whose history is wanted.
     pixel: Option<[u32; 2]>,
+    /// Whether the recording is to be saved.
+    saves_recording: bool,
 }
 
 impl Live {
     pub(super) fn new(server: Server) -> Self {
-        Self { server, is_frozen: false, steps: 0, pixel: None }
+        Self { server, is_frozen: false, steps: 0, pixel: None, saves_recording: false }
     }
 
     /// Returns the seconds by which the scene advances in a frame that took some.
@@ -51,6 +55,7 @@ impl Live {
             match request {
                 PageRequest::Freeze(freeze) => (self.is_frozen, self.steps) = (freeze, 0),
                 PageRequest::Step => (self.is_frozen, self.steps) = (true, self.steps + 1),
+                PageRequest::SaveRecording => self.saves_recording = true,
                 PageRequest::Pixel(pixel) => self.pixel = Some(pixel),
                 PageRequest::Choose { value, .. } => {
                     if let Ok(technique) = registry.techniques.find(&value) {
@@ -71,6 +76,7 @@ impl Live {
         let distance = OfferedValue::Number { value, min: 1.0, max: 10_000.0 };
         self.server.offer(Controls {
             freeze: Some(self.is_frozen),
+            save_recording: adjustable.is_recording,
             pixel: true,
             settings: vec![
                 Offered { name: TECHNIQUE.into(), value: technique },
@@ -82,6 +88,11 @@ impl Live {
     /// Returns the pixel whose history is wanted, once.
     pub(super) fn take_pixel(&mut self) -> Option<[u32; 2]> {
         self.pixel.take()
+    }
+
+    /// Returns whether the recording is to be saved, once.
+    pub(super) fn takes_recording(&mut self) -> bool {
+        std::mem::take(&mut self.saves_recording)
     }
 
     pub(super) fn answer_pixel(&mut self, history: &PixelHistory, shadows: &str) {

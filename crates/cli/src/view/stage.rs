@@ -193,8 +193,12 @@ impl Stage {
 
     /// Follows what the page asks for, and returns the seconds by which the scene advances.
     pub(super) fn follow_page(&mut self, seconds: f64) -> f64 {
+        let is_recording = self.record_mib.is_some();
         let Self { live: Some(live), technique, settings, registry, .. } = self else { return seconds };
-        live.update(&mut Adjustable { technique, distance_m: &mut settings.distance_m }, registry);
+        live.update(
+            &mut Adjustable { technique, distance_m: &mut settings.distance_m, is_recording },
+            registry,
+        );
         live.advance(seconds)
     }
 
@@ -333,6 +337,12 @@ impl Stage {
         created.set_recorder(self.take_recorder());
         self.renderer = Some(created);
         Ok(())
+    }
+
+    /// Returns what has recorded the frames so far, if the page wants it saved.
+    pub(super) fn recording_to_save(&mut self) -> Option<&Recorder> {
+        let is_wanted = self.live.as_mut().is_some_and(Live::takes_recording);
+        is_wanted.then(|| self.renderer.as_ref()?.recorder()).flatten()
     }
 
     /// Returns what has recorded the frames so far, and stops recording.

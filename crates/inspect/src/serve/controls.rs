@@ -7,6 +7,8 @@ use serde::Serialize;
 pub struct Controls {
     /// Whether the program stands still, if the page may freeze it and let it do one step.
     pub freeze: Option<bool>,
+    /// Whether frames are recorded, and the page may have the recording saved.
+    pub save_recording: bool,
     /// Whether the page may ask for the history of a pixel.
     pub pixel: bool,
     /// Settings.

@@ -13,6 +13,8 @@ pub enum PageRequest {
     Freeze(bool),
     /// Draw the next frame and stand still again.
     Step,
+    /// Save what has been recorded so far.
+    SaveRecording,
     /// Draw a frame pass by pass and [answer](super::Server::answer_pixel) with the history of a pixel: column and row from the top left.
     Pixel([u32; 2]),
     /// Set a setting to one of its words.
@@ -37,6 +39,7 @@ impl PageRequest {
         let offered = |name: &str| controls.settings.iter().find(|setting| setting.name == name);
         let is_offered = match self {
             Self::Freeze(_) | Self::Step => controls.freeze.is_some(),
+            Self::SaveRecording => controls.save_recording,
             Self::Pixel(_) => controls.pixel,
             Self::Choose { name, value } => match offered(name).map(|setting| &setting.value) {
                 Some(OfferedValue::Choice { all, .. }) => all.contains(value),

@@ -230,6 +230,7 @@ fn a_page_can_ask_for_what_is_offered_and_for_nothing_else() {
     let choice = OfferedValue::Choice { chosen: "pcf".into(), all: vec!["pcf".into(), "none".into()] };
     let controls = Controls {
         freeze: Some(false),
+        save_recording: true,
         pixel: true,
         settings: vec![
             Offered { name: "scale".into(), value: number },
@@ -243,6 +244,7 @@ fn a_page_can_ask_for_what_is_offered_and_for_nothing_else() {
     let allowed = [
         json!({ "freeze": true }),
         json!("step"),
+        json!("save_recording"),
         json!({ "pixel": [3, 4] }),
         json!({ "set": { "name": "scale", "value": 4.0 } }),
         json!({ "choose": { "name": "technique", "value": "none" } }),
@@ -272,6 +274,7 @@ fn a_page_can_ask_for_what_is_offered_and_for_nothing_else() {
     let expected = [
         PageRequest::Freeze(true),
         PageRequest::Step,
+        PageRequest::SaveRecording,
         PageRequest::Pixel([3, 4]),
         PageRequest::Set { name: "scale".into(), value: 4.0 },
         PageRequest::Choose { name: "technique".into(), value: "none".into() },

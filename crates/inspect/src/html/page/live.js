@@ -91,6 +91,7 @@ const liveView = {
     this.buttons.replaceChildren(...[
       controls.freeze != null && h('button', { 'aria-pressed': String(controls.freeze), onclick: () => this.ask({ freeze: !controls.freeze }) }, controls.freeze ? 'Continue' : 'Freeze'),
       controls.freeze && h('button', { onclick: () => this.ask('step') }, 'Step'),
+      controls.save_recording && h('button', { id: 'save-recording', onclick: () => this.ask('save_recording') }, 'Save the recording'),
       ...controls.settings.map(setting),
     ].filter(Boolean));
     this.canvas.style.cursor = controls.pixel ? 'crosshair' : 'default';
