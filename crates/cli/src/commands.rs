@@ -40,6 +40,7 @@ impl Input {
 
 /// `shadowgraph render`
 pub(crate) fn render(args: &RenderArgs, registry: &Registry) -> Result<(), Failure> {
+    args.replay.file()?;
     check_output(&args.output)?;
     let files = FrameFiles::parse(&args.output)?;
     let ranges = args.check_values.as_deref();

@@ -141,6 +141,10 @@ fn diff(files: &[PathBuf], format: Format, tolerance: Tolerance) -> Result<Strin
     let [before, after] = files else { return Err(usage("--diff: expected two files")) };
     let (read_before, read_after) = (read(before)?, read(after)?);
     let failed = |problem| Failure { code: Failure::INPUT, message: format!("--diff: {problem}") };
+    if read_before.has_contents() != read_after.has_contents() {
+        let without = if read_before.has_contents() { after } else { before };
+        console::warning(&format!("contents are not compared: {} has none (--hashes)", without.display()));
+    }
     let diff = read_before.diff_with_contents(&read_after, tolerance).map_err(failed)?;
     match format {
         Format::Text => Ok(diff.to_text()),

@@ -19,7 +19,7 @@ use shadowgraph_quality::{PixelShadows, ShadowInspector};
 /// `shadowgraph pixel`
 pub(crate) fn pixel(args: &PixelArgs, registry: &Registry) -> Result<(), Failure> {
     let is_json = args.output.as_deref().map_or(Ok(false), is_json)?;
-    let (history, shadows) = match &args.replay.file {
+    let (history, shadows) = match args.replay.file()? {
         Some(file) => {
             replay::with_frame((file, &args.draw, registry), args.replay.frame, |gpu, renderer, view| {
                 let config = renderer.config().clone();

@@ -18,6 +18,8 @@ use shadowgraph::scene::Scene;
 pub(crate) struct Source {
     /// Absolute.
     pub(crate) file: Option<PathBuf>,
+    /// The hash of the file's bytes, which other files that it names are not part of.
+    pub(crate) hash: Option<String>,
     pub(crate) variant: Option<String>,
     /// The name of a procedural scene.
     pub(crate) procedural: Option<String>,
@@ -28,9 +30,17 @@ pub(crate) struct Source {
 pub(crate) fn recorder(args: &DrawArgs, scene: &Scene, limit_mib: u32) -> Recorder {
     let DrawArgs { scene: file, variant, procedural, ground, .. } = args;
     let file = file.as_ref().map(|file| std::path::absolute(file).unwrap_or_else(|_| file.clone()));
+    let hash = file.as_deref().and_then(hash);
     let file = file.map(|file| file.to_string_lossy().into_owned());
-    let source = json!({ "file": file, "variant": variant, "procedural": procedural, "ground": ground });
+    let source =
+        json!({ "file": file, "hash": hash, "variant": variant, "procedural": procedural, "ground": ground });
     Recorder::new(scene, source, limit_mib)
+}
+
+/// Returns the hash of a scene's file (XXH3, 64 bits), if it can be read.
+pub(crate) fn hash(file: &Path) -> Option<String> {
+    let bytes = std::fs::read(file).ok()?;
+    Some(format!("{:016x}", xxhash_rust::xxh3::xxh3_64(&bytes)))
 }
 
 /// Writes the file of a recorder.

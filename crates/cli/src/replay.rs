@@ -10,7 +10,7 @@ use super::console;
 use super::failure::Failure;
 use super::frame_files::FrameFiles;
 use super::progress::Progress;
-use super::recording::Source;
+use super::recording::{self, Source};
 use super::values::{self, Findings};
 use shadowgraph::options::{AdapterChoice, GroundChoice, OptionError};
 use shadowgraph::output::write_png;
@@ -99,7 +99,11 @@ fn open(file: &Path, args: &DrawArgs) -> Result<(Gpu, Recording, Scene), Failure
 
 /// Loads the scene of a recording.
 fn scene(recording: &Recording, args: &DrawArgs) -> Result<Scene, Failure> {
-    let Source { file, variant, procedural, ground } = Source::deserialize(recording.source())?;
+    let Source { file, hash, variant, procedural, ground } = Source::deserialize(recording.source())?;
+    if let Some(file) = file.as_deref().filter(|file| file.exists() && hash != recording::hash(file)) {
+        let message = format!("{} has changed since it was recorded", file.display());
+        return Err(Failure { code: Failure::INPUT, message });
+    }
     let choice: GroundChoice = ground.parse()?;
     let mut scene = commands::scene(&args.with_scene(file, variant, procedural))?;
     choice.place(&scene, true).add_to(&mut scene);

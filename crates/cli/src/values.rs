@@ -1,7 +1,7 @@
 //! `--check-values`: what is checked, and what is reported.
 
 use shadowgraph::RenderedFrame;
-use shadowgraph::core::{ResourceDesc, ValueCheck};
+use shadowgraph::core::{ResourceDesc, ValueCheck, closest_name, did_you_mean};
 use shadowgraph::options::OptionError;
 
 use super::console;
@@ -35,12 +35,17 @@ pub(crate) fn check_names(text: &str, frame: &RenderedFrame) -> Result<(), Optio
     let names = || {
         let textures =
             frame.plan.resources().filter(|(_, found)| matches!(found.desc, ResourceDesc::Texture(_)));
-        textures.map(|(_, texture)| texture.name)
+        textures.map(|(id, texture)| (texture.name, frame.plan.resource_path(id)))
     };
     for part in text.split(',') {
         let Some((texture, _)) = part.rsplit_once('=') else { continue };
-        if !names().any(|name| name == texture) {
-            let hint = shadowgraph::core::did_you_mean(texture, names());
+        if !names().any(|(name, path)| name == texture || path == texture) {
+            let paths: Vec<String> = names().map(|(_, path)| path).collect();
+            // Several textures can have a name; a list has their paths.
+            let hint = match closest_name(texture, names().map(|(name, _)| name)) {
+                Some(name) => format!("; did you mean `{name}`?"),
+                None => did_you_mean(texture, paths.iter().map(String::as_str)),
+            };
             return Err(OptionError::new(
                 "check_values",
                 format!("no texture has the name `{texture}`{hint}"),

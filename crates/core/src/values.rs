@@ -17,17 +17,18 @@ pub struct ValueCheck {
 }
 
 impl ValueCheck {
-    /// Reports values of all channels outside of `range`, in textures with this name that are not integers.
+    /// Reports values of all channels, alpha too, outside of `range`, in textures with this name or path that are not integers.
     #[must_use]
     pub fn range(mut self, texture: impl Into<String>, range: RangeInclusive<f32>) -> Self {
         self.ranges.push((texture.into(), range));
         self
     }
 
-    /// Returns the range of a texture, if one is declared.
+    /// Returns the range of a texture with a name and a path, if one is declared.
     #[cfg(feature = "gpu")]
-    pub(crate) fn range_of(&self, texture: &str) -> Option<RangeInclusive<f32>> {
-        self.ranges.iter().rev().find(|(name, _)| name == texture).map(|(_, range)| range.clone())
+    pub(crate) fn range_of(&self, name: &str, path: &str) -> Option<RangeInclusive<f32>> {
+        let mut declared = self.ranges.iter().rev();
+        declared.find(|(texture, _)| texture == name || texture == path).map(|(_, range)| range.clone())
     }
 }
 

@@ -81,7 +81,7 @@ pub struct PixelLight {
 /// A change of a setting.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PixelRemedy {
-    /// The setting and its value.
+    /// The setting as in a settings file, such as `(cascades: (count: 4))`, or the technique.
     pub setting: String,
     /// The visibility with it, 0 to 255.
     pub visibility: [u8; 3],

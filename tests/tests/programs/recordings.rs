@@ -5,6 +5,7 @@ use std::process::{Command, Output};
 
 use shadowgraph::Gpu;
 use shadowgraph::options::AdapterChoice;
+use shadowgraph_tests::repository;
 
 /// Runs `render` in a directory.
 fn render(dir: &Path, arguments: &[&str]) -> Output {
@@ -88,6 +89,10 @@ fn what_cannot_be_drawn_again_is_an_error_of_one_line() {
             "is not the one of the recording",
         ),
         (text.replacen("\"file\":()", "\"file\":\"/no/such.glb\"", 1), "/no/such.glb"),
+        (
+            text.replacen("\"file\":()", &format!("\"file\":{:?}", repository().join("Cargo.toml")), 1),
+            "Cargo.toml has changed since it was recorded",
+        ),
     ] {
         let error = with(&[], &text);
         assert!(error.starts_with("error: --replay: ") && error.contains(expected), "{error}");

@@ -7,7 +7,7 @@ pub(crate) use draw::{DrawArgs, settings_file, technique};
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use shadowgraph::options::OptionError;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 const USEFUL: &str = "\
 The three most useful commands:
@@ -98,6 +98,17 @@ pub(crate) struct ReplayArgs {
     /// With --replay: the number of the frame, from 0
     #[arg(long, value_name = "N", requires = "replay", allow_negative_numbers = true)]
     pub(crate) frame: Option<u32>,
+}
+
+impl ReplayArgs {
+    /// Returns the file, if a recorded frame is drawn.
+    pub(crate) fn file(&self) -> Result<Option<&Path>, OptionError> {
+        // Other options that conflict with --replay keep the parser from requiring it.
+        match (&self.file, self.frame) {
+            (None, Some(_)) => Err(OptionError::new("frame", "it is of a recording; give --replay FILE too")),
+            (file, _) => Ok(file.as_deref()),
+        }
+    }
 }
 
 /// `shadowgraph render`

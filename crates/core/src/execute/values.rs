@@ -125,7 +125,8 @@ fn parts(plan: &Plan, check: &ValueCheck) -> (Vec<CheckedPart>, u32) {
                     ResourceDesc::Texture(desc) => desc.format,
                     ResourceDesc::Buffer(_) => continue,
                 };
-                let declared = check.range_of(decl.resource_name(access.resource));
+                let (name, path) = (decl.resource_name(access.resource), decl.resource_path(access.resource));
+                let declared = check.range_of(name, &path);
                 let range = declared.clone().unwrap_or(match format.is_depth_stencil_format() {
                     true => 0.0..=1.0,
                     false => f32::MIN..=f32::MAX,

@@ -185,7 +185,7 @@ impl ContentsDiff {
         };
         if *only_hashes > 0 {
             text += &format!(
-                "  {only_hashes} of them are compared by hash alone, as their values were not written\n"
+                "  {only_hashes} of them are compared by hash alone, as there is no file of values, or it has not theirs\n"
             );
         }
         if *unknown > 0 {

@@ -2,14 +2,14 @@
 
 use shadowgraph_shadows::{CullSettings, MAX_CASCADES, ShadowFilter, ShadowSettings, VirtualSettings};
 
-/// Returns settings that each differ in one value, with that value. The setting of a map is that of the light's kind.
+/// Returns settings that each differ in one value, with that value as in a settings file. The setting of a map is that of the light's kind.
 pub(super) fn changes(settings: &ShadowSettings, is_directional: bool) -> Vec<(String, ShadowSettings)> {
     let mut changes = Vec::new();
     let mut change = |name: String, change: &dyn Fn(&mut ShadowSettings)| {
         let mut changed = settings.clone();
         change(&mut changed);
         if changed != *settings && changed.validate().is_ok() {
-            changes.push((name, changed));
+            changes.push((in_file(&name), changed));
         }
     };
     let narrowest = ShadowFilter::ALL[0];
@@ -64,7 +64,20 @@ pub(super) fn changes(settings: &ShadowSettings, is_directional: bool) -> Vec<(S
     changes
 }
 
+/// Returns the text of a settings file that sets a value: `(cascades: (count: 4))` for `cascades.count: 4`.
+fn in_file(setting: &str) -> String {
+    let (path, value) = setting.split_once(": ").unwrap_or((setting, ""));
+    let mut names = path.rsplit('.');
+    let last = names.next().unwrap_or_default();
+    names.fold(format!("({last}: {value})"), |inner, name| match name {
+        "techniques" => format!("(techniques: {{{inner}}})"),
+        technique if path.starts_with("techniques.") => format!("\"{technique}\": {inner}"),
+        name => format!("({name}: {inner})"),
+    })
+}
+
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "tests")]
 mod tests {
     use super::*;
 
@@ -74,6 +87,14 @@ mod tests {
             let changes = changes(&ShadowSettings::default(), is_directional);
             let mut names: Vec<_> = changes.iter().map(|(name, _)| name.clone()).collect();
             assert!(changes.iter().all(|(_, changed)| *changed != ShadowSettings::default()));
+            for (text, changed) in &changes {
+                let read: ShadowSettings = ron::from_str(text).unwrap();
+                let of_virtual =
+                    |settings: &ShadowSettings| settings.techniques.get::<VirtualSettings>().unwrap();
+                assert_eq!(of_virtual(&read), of_virtual(changed), "{text}");
+                let techniques = changed.techniques.clone();
+                assert_eq!(ShadowSettings { techniques, ..read }, *changed, "{text}");
+            }
             assert!(names.len() > 8, "{names:?}");
             names.sort();
             names.dedup();

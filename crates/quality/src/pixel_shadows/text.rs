@@ -10,7 +10,7 @@ impl PixelShadows {
     pub fn to_text(&self) -> String {
         let mut text = format!("shadows of `{}`\n", self.technique);
         let Some(surface) = &self.surface else {
-            text.push_str("  no surface: the background\n");
+            text.push_str("  no surface: the background, or the ground of `--ground auto`, whose shadows are not explained\n");
             return text;
         };
         let PixelSurface { position_world: [x, y, z], normal: [a, b, c], view_depth_m, instance } = surface;
@@ -52,7 +52,7 @@ fn described(light: &PixelLight) -> String {
     };
     let differs = match &light.remedy {
         Some(PixelRemedy { setting, visibility }) => {
-            format!("; {place}: `{setting}` gives {}", shown(*visibility))
+            format!("; {place}: with `{setting}` it is {}", shown(*visibility))
         }
         None if light.differs() => format!("; {place}, and no setting that was tried helps"),
         None => String::new(),

@@ -42,7 +42,8 @@ impl Traced<'_> {
     /// Returns the name of the instance that the camera sees.
     fn seen(&self, position: Vec3) -> Option<String> {
         let (direction, distance_m) = (position - self.eye()).normalize_and_length();
-        let ray = Ray::new(self.eye(), direction, 0.0, f32::INFINITY);
+        // In front of it may be faces that the camera sees from behind, which are not drawn.
+        let ray = Ray::new(self.eye(), direction, (1.0 - SAME_SURFACE) * distance_m, f32::INFINITY);
         let hit = self.truth.rays()?.nearest_hit(&ray)?;
         let is_seen = (hit.distance_m - distance_m).abs() <= SAME_SURFACE * distance_m;
         if is_seen { self.truth.name(hit.instance) } else { None }
