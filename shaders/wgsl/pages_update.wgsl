@@ -13,6 +13,7 @@
     BORDER_TEXELS, COMPOSITE, IS_LAYER, Level, PAGE_DRAWN, PAGE_PX, PAGE_TEXELS, Page, PageTable, PhysicalPage, Projection, STATIC,
     entry_of, has_entry, parent_of,
 }
+#import shadowgraph::shadows::page_depths::PageDepths
 #import shadowgraph::layer_views::{CASTERS_MOVING, CASTERS_STATIC, LayerViews}
 #import shadowgraph::pages_state::{
     ListedPage, counters, level_of, levels, lists, marks, pages_frame, projections, frame_stamp, words_of,
@@ -123,7 +124,7 @@ fn cs_validate(@builtin(global_invocation_id) id: vec3u) {
         // Static pages do not depend on what moves.
         let changed_end = select(pages_frame.changed_end, pages_frame.moved_end, known.kind == COMPOSITE);
         is_valid = number >= 0 && number < i32(projection.level_count) && has_entry(level_of(page), page.place)
-            && !any_touches(page, 0u, changed_end);
+            && level_of(page).depth_offset == known.depth_offset && !any_touches(page, 0u, changed_end);
         physical_pages[index].page = page;
     }
     if !is_valid {
@@ -339,8 +340,9 @@ fn give_place(needed: ListedPage, kind: u32, rank: u32) {
     let level = level_of(needed.page);
     let version = projections[needed.page.projection].version;
     let frame = pages_frame.frame;
-    physical_pages[place] =
-        PhysicalPage(needed.page, version, level.exponent, frame, needed.entry, kind, frame, rank);
+    physical_pages[place] = PhysicalPage(
+        needed.page, version, level.exponent, frame, needed.entry, kind, frame, rank, level.depth_offset, PageDepths(),
+    );
     set_resident(needed.entry, kind, place);
     if kind == needed.has_movers {
         show(needed.entry, place, PAGE_DRAWN);

@@ -1,6 +1,7 @@
 // Draws the pool of physical pages as an image: the surfaces that a page has stored, lit from the top left in the colour of its level, and
 // darker where the page is kept from an earlier frame. Texels without a caster are dark, free pages black.
 #import shadowgraph::shadows::colors::cascade_tint
+#import shadowgraph::shadows::page_depths::{LAST_STEP, depth_of_step}
 #import shadowgraph::shadows::pages::{Level, PAGE_PX, PageTable, PhysicalPage, Projection}
 
 @group(0) @binding(0) var<storage, read> projections: array<Projection>;
@@ -31,7 +32,7 @@ fn color_of(texel: vec2u) -> vec3f {
     let physical = physical_pages[index];
     let is_drawn = (physical.drawn_frame & 0xffffu) == page_table.stamp;
     let color = cascade_tint(u32(physical.exponent & 3)) * select(KEPT, 1.0, is_drawn);
-    let depth = textureLoad(page_pool, texel, 0);
+    let depth = depth_at(physical, texel);
     if depth == 0.0 {
         return color * NO_CASTER;
     }
@@ -39,15 +40,15 @@ fn color_of(texel: vec2u) -> vec3f {
     let first = place * PAGE_PX;
     let last = first + PAGE_PX - 1u;
     let slope = vec2f(
-        depth_at(texel.x + 1u, texel.y, first, last) - depth_at(max(texel.x, 1u) - 1u, texel.y, first, last),
-        depth_at(texel.x, texel.y + 1u, first, last) - depth_at(texel.x, max(texel.y, 1u) - 1u, first, last),
+        depth_at(physical, vec2u(min(texel.x + 1u, last.x), texel.y)) - depth_at(physical, vec2u(max(texel.x, first.x + 1u) - 1u, texel.y)),
+        depth_at(physical, vec2u(texel.x, min(texel.y + 1u, last.y))) - depth_at(physical, vec2u(texel.x, max(texel.y, first.y + 1u) - 1u)),
     ) / (2.0 * depth_per_texel(physical, depth));
     let n_dot_l = dot(normalize(vec3f(-slope, 1.0)), DIRECTION_TO_LIGHT);
     return color * (0.3 + 0.7 * max(n_dot_l, 0.0));
 }
 
-fn depth_at(x: u32, y: u32, first: vec2u, last: vec2u) -> f32 {
-    return textureLoad(page_pool, clamp(vec2u(x, y), first, last), 0);
+fn depth_at(physical: PhysicalPage, texel: vec2u) -> f32 {
+    return depth_of_step(physical.depths, round(LAST_STEP * textureLoad(page_pool, texel, 0)));
 }
 
 // The change of a depth over the width of a texel towards the light.

@@ -3,9 +3,10 @@
 #import shadowgraph::receiver::Receiver
 #import shadowgraph::shadows::lookup::{Lookup, incidence_in, look_up}
 #import shadowgraph::shadows::maps::read_page
+#import shadowgraph::shadows::page_depths::step_width
 #import shadowgraph::shadows::pages::{
-    BORDER_TEXELS, Level, Page, PAGE_DRAWN, PAGE_PLACE, PAGE_PX, PAGE_TEXELS, PageTable, Projection, biased, entry_of, has_entry,
-    in_level, page_of, place_texel, project,
+    BORDER_TEXELS, Level, Page, PAGE_DRAWN, PAGE_PLACE, PAGE_PX, PAGE_TEXELS, PageTable, PhysicalPage, Projection, biased, entry_of,
+    has_entry, in_level, page_of, place_texel, project,
 }
 #import shadowgraph::shadows::types::{NOT_A_CASCADE, ShadowLight, ShadowView}
 #import shadowgraph::shadows::variant::DIRECTIONAL
@@ -14,6 +15,7 @@
 @group(1) @binding(1) var<storage, read> levels: array<Level>;
 @group(1) @binding(2) var<storage, read> shadow_lights: array<ShadowLight>;
 @group(1) @binding(3) var<storage, read> page_table: PageTable;
+@group(1) @binding(8) var<storage, read> physical_pages: array<PhysicalPage>;
 
 // A page that the frame has, or none.
 struct Found {
@@ -94,9 +96,12 @@ fn view_of(found: Found) -> ShadowView {
 fn look_up_page(shadow: ShadowLight, receiver: Receiver, found: Found) -> Lookup {
     var lookup: Lookup;
     if found.exists {
-        read_page(found.index, found.place_px);
+        let depths = physical_pages[found.index].depths;
+        read_page(found.index, found.place_px, depths);
         let shadow_view = view_of(found);
         lookup = look_up(shadow_view, shadow, receiver, incidence_in(shadow_view, shadow, receiver));
+        let error = lookup.unbiased.error;
+        lookup.unbiased.error = select(0.0, error + step_width(depths, lookup.depth), error > 0.0);
     }
     return lookup;
 }

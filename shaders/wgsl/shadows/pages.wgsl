@@ -1,6 +1,7 @@
 // Pages of virtual shadow maps. The map of a projection has levels, each with texels twice as wide as those of the level before. A level is
 // a grid of pages; those that are resident have a place in the pool of physical pages.
 #define_import_path shadowgraph::shadows::pages
+#import shadowgraph::shadows::page_depths::PageDepths
 #import shadowgraph::shadows::types::ShadowLight
 #import shadowgraph::shadows::variant::DIRECTIONAL
 
@@ -12,6 +13,10 @@ const PAGE_PX: u32 = 136u;
 const BLEND_PART: f32 = 0.25;
 // Levels by which maps are finer where surfaces are seen or lit at a grazing angle, at most.
 const MAX_NARROWING: f32 = 1.0;
+// How far a level of a directional light reaches from the camera, texels: across it has 64 pages on each side, and along the light depths up to
+// half its range, less half a step in which that follows the camera.
+const REACH_ACROSS: f32 = 62.0 * 128.0;
+const REACH_ALONG: f32 = 48000.0;
 // Steps of a level in which all levels are coarsened while the pool is too small.
 const COARSENING_STEPS: f32 = 4.0;
 
@@ -80,7 +85,7 @@ struct Page {
     place: vec2i,
 }
 
-// A physical page. 48 bytes.
+// A physical page. 64 bytes.
 struct PhysicalPage {
     page: Page,
     // That of the projection when the page was drawn; 0: the page is free.
@@ -96,6 +101,9 @@ struct PhysicalPage {
     // The frame that drew it, and its layer there.
     drawn_frame: u32,
     layer: u32,
+    // The offset of depths in its level, and how it stores them.
+    depth_offset: f32,
+    depths: PageDepths,
 }
 
 const STATIC: u32 = 0u;
@@ -193,9 +201,10 @@ fn direction_to_light(projection: Projection, position: vec3f) -> vec3f {
 fn wanted_level(projection: Projection, point: MapPoint, pixel_m: f32) -> f32 {
     var level = log2(pixel_m / (projection.texel_m * point.w));
     if DIRECTIONAL || projection.is_perspective == 0u {
-        // The level covers the point: 62 of the 64 pages on each side of the camera, and far more along the light.
-        let offset = abs(point.position - projection.center) * vec3f(1.0, 1.0, 0.03125 / projection.texel_m);
-        level = max(level, ceil(log2(max(max(offset.x, offset.y), offset.z) / (62.0 * PAGE_TEXELS))));
+        // The level covers the point.
+        let offset = abs(point.position - projection.center);
+        let across = max(offset.x, offset.y) / REACH_ACROSS;
+        level = max(level, ceil(log2(max(across, offset.z / (REACH_ALONG * projection.texel_m)))));
     }
     return clamp(level, 0.0, f32(projection.level_count - 1u));
 }

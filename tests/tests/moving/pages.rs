@@ -4,7 +4,9 @@ use crate::worlds::{Pair, SIZE_PX, camera, different_pixels, edit_lights, edit_m
 use crate::{frames, gpu, seed};
 use glam::{DAffine3, DVec3};
 use shadowgraph::options::Aov;
-use shadowgraph::scene::{Instance, InstanceKey, Light, LightKind, Material, Mesh, Scene};
+use shadowgraph::scene::{
+    Camera, Instance, InstanceKey, Light, LightKind, Material, Mesh, Projection, Scene,
+};
 use shadowgraph::shadows::{ShadowSettings, VIRTUAL, VirtualSettings};
 use shadowgraph::{Gpu, RenderedFrame, Renderer, ViewOptions};
 use shadowgraph_tests::edits;
@@ -249,4 +251,39 @@ fn a_camera_that_walks_draws_at_most_a_twentieth_of_the_resident_pages_in_a_fram
     let fraction = f64::from(drawn) / f64::from(resident);
     println!("{:.2} % of the resident pages drawn in a frame", 100.0 * fraction);
     assert!(drawn > 0 && fraction <= 0.05, "{fraction}");
+}
+
+/// Counts the pixels of an image that are much darker than its brightest one.
+fn dark_pixels(frame: &RenderedFrame) -> usize {
+    let pixels = || frame.image.rgba8.chunks_exact(4);
+    let brightest = pixels().map(|pixel| pixel[1]).max().unwrap_or(0);
+    pixels().filter(|pixel| pixel[1] < brightest / 2).count()
+}
+
+/// Returns a view of 4 m around a point on the ground, from far above it and nearly along the light of [`field`].
+fn through_a_long_lens(height_m: f64) -> ViewOptions {
+    let eye = DVec3::new(-0.2, 1.0, -0.2) * height_m;
+    let projection =
+        Projection::Perspective { fov_y: 2.0 * (2.0 / eye.length()).atan(), near: 1.0, far: None };
+    let camera = Camera::look_at(eye + DVec3::X, DVec3::X, DVec3::Z, projection);
+    let shadows = ShadowSettings { distance_m: 3000.0, ..ShadowSettings::default() };
+    ViewOptions { camera, size_px: SIZE_PX, shadows }
+}
+
+#[test]
+fn shadows_seen_through_a_long_lens_stay_while_the_camera_rises_and_falls() {
+    let Some(gpu) = gpu() else { return };
+    let mut pair = Pair::new(gpu, VIRTUAL);
+    pair.restart(gpu, &field(60, 6.0).0);
+    let mut dark = Vec::new();
+    // From 50 m to 1 km and back.
+    for step in (1..=20).chain((1..20).rev()) {
+        let height_m = 50.0 * f64::from(step);
+        let [with, without] = pair.draw(gpu, &through_a_long_lens(height_m));
+        assert_eq!(different_pixels(&with, &without, 2), 0, "at {height_m} m");
+        dark.push(dark_pixels(&with));
+    }
+    println!("{dark:?} dark pixels");
+    let (least, most) = (dark.iter().min().unwrap(), dark.iter().max().unwrap());
+    assert!(*least > 100 && most - least <= 20, "{dark:?} dark pixels");
 }

@@ -16,6 +16,7 @@ mod lost;
 mod maps;
 mod measure;
 mod noise;
+mod page_depths;
 mod pipelines;
 mod pixel_history;
 mod planted;

@@ -59,7 +59,7 @@ fn each_of_64_lights_in_a_city_has_texels_of_at_most_twice_its_pixels() {
         assert!(frame.unshadowed.is_empty(), "{:?}", frame.unshadowed);
         frame
     };
-    let (large, small) = (draw(128), draw(32));
+    let (large, small) = (draw(64), draw(16));
     // Texels are at most half as wide as pixels without coarsening.
     let texels_per_pixel = 0.5 * coarser_levels(&large).exp2();
     assert!(texels_per_pixel <= 2.0, "{:?}", large.counts);
@@ -106,7 +106,7 @@ fn a_device_with_the_default_limits_draws_the_same_image_and_refuses_larger_pool
         Renderer::with_config(smaller, scene.clone(), &camera, Aov::Color, config(VIRTUAL)).unwrap();
     let options = ViewOptions { camera: camera.clone(), size_px: [64, 36], shadows: with_pool(256) };
     let said = renderer.draw(smaller, &options).err().map(|error| error.to_string()).unwrap();
-    assert!(said.contains("pool_mib") && said.contains("from 4 to 128 MiB on this device"), "{said}");
+    assert!(said.contains("pool_mib") && said.contains("from 4 to 64 MiB on this device"), "{said}");
 }
 
 #[test]

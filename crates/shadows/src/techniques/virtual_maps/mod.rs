@@ -32,7 +32,7 @@ use crate::technique::binding::{COMPARISON_SAMPLER, DEPTH_MAP, STORAGE};
 use crate::technique::{ShadowBinding, ShadowExplanation, ShadowOutputs, ShadowTechnique, SurfaceBuffers};
 use passes::{FrameBuffers, Passes};
 use plan::VirtualPlan;
-use store::{PageNeeds, PoolSize, Stores};
+use store::{POOL_FORMAT, PageNeeds, PoolSize, Stores};
 use tints::Tints;
 use variant::Variant;
 
@@ -64,7 +64,7 @@ impl VirtualMaps {
                 usage: wgpu::BufferUsages::STORAGE,
                 mapped_at_creation: false,
             }),
-            no_pool: texel(device, "no page pool", wgpu::TextureFormat::Depth32Float),
+            no_pool: texel(device, "no page pool", POOL_FORMAT),
         })
     }
 
@@ -74,20 +74,21 @@ impl VirtualMaps {
         let nothing = || ShadowBinding::ExternalBuffer(&self.nothing);
         let variant = Variant::for_frame(&plan.lights, &plan.projections, false);
         let buffers = [nothing(), nothing(), nothing(), nothing()];
-        self.outputs(variant, (buffers, [nothing(), nothing()]), [pool.clone(), pool], plan)
+        let pages = [nothing(), nothing(), nothing()];
+        self.outputs(variant, (buffers, pages), [pool.clone(), pool], plan)
     }
 
     fn outputs<'f>(
         &'f self,
         variant: Variant,
-        (buffers, tints): ([ShadowBinding<'f>; 4], [ShadowBinding<'f>; 2]),
+        (buffers, pages): ([ShadowBinding<'f>; 4], [ShadowBinding<'f>; 3]),
         [pool, pool_view]: [Texture; 2],
         plan: &VirtualPlan,
     ) -> ShadowOutputs<'f> {
         let mut bindings = Vec::from(buffers);
         bindings.push(ShadowBinding::Texture(pool));
         bindings.push(ShadowBinding::Sampler(&self.sampler));
-        bindings.extend(tints);
+        bindings.extend(pages);
         ShadowOutputs {
             variant: variant.index(),
             bindings,
@@ -134,7 +135,7 @@ impl ShadowTechnique for VirtualMaps {
     }
 
     fn binding_types(&self) -> Vec<wgpu::BindingType> {
-        vec![STORAGE, STORAGE, STORAGE, STORAGE, DEPTH_MAP, COMPARISON_SAMPLER, STORAGE, STORAGE]
+        vec![STORAGE, STORAGE, STORAGE, STORAGE, DEPTH_MAP, COMPARISON_SAMPLER, STORAGE, STORAGE, STORAGE]
     }
 
     fn explanation(&self) -> Option<ShadowExplanation> {
@@ -173,15 +174,16 @@ impl ShadowTechnique for VirtualMaps {
         frame.node("shadows", |frame| {
             let inputs = (inputs, buffers, &settings);
             let store = (&store, next, &boxes);
-            let FrameBuffers { projections, levels, lights, table, pool, tints, pool_view } =
+            let FrameBuffers { projections, levels, lights, table, pages, pool, tints, pool_view } =
                 self.passes.add_to(frame, inputs, (&plan, casters), store);
             let variant = Variant::for_frame(&plan.lights, &plan.projections, tinted);
             let buffers = [projections, levels, lights, table].map(ShadowBinding::Buffer);
-            let tints = match tints {
+            let [depths, densities] = match tints {
                 Some(Tints { depths, densities }) => [depths, densities].map(ShadowBinding::Buffer),
                 None => [&self.nothing; 2].map(ShadowBinding::ExternalBuffer),
             };
-            Ok(self.outputs(variant, (buffers, tints), [pool, pool_view], &plan))
+            let pages = [depths, densities, ShadowBinding::Buffer(pages)];
+            Ok(self.outputs(variant, (buffers, pages), [pool, pool_view], &plan))
         })
     }
 }

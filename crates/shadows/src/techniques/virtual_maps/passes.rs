@@ -7,7 +7,7 @@ use super::plan::{MAX_COARSE, VirtualPlan};
 use super::pool_view::PoolView;
 use super::projections::PAGE_PX;
 use super::settings::VirtualSettings;
-use super::store::{Boxes, MAX_BOXES, PageStore, StoreState};
+use super::store::{Boxes, MAX_BOXES, POOL_FORMAT, PageStore, StoreState};
 use super::tints::{TintPasses, Tints};
 use crate::error::Error;
 use crate::layered_casters::{LayerTokens, LayeredCasters, LayeredInstances};
@@ -66,6 +66,7 @@ pub(super) struct Passes {
     list: wgpu::ComputePipeline,
     allocate: wgpu::ComputePipeline,
     finish: wgpu::ComputePipeline,
+    ranges: wgpu::ComputePipeline,
     combine: wgpu::ComputePipeline,
     store: wgpu::RenderPipeline,
     tints: TintPasses,
@@ -78,6 +79,7 @@ pub(super) struct FrameBuffers {
     pub(super) levels: Buffer,
     pub(super) lights: Buffer,
     pub(super) table: Buffer,
+    pub(super) pages: Buffer,
     pub(super) pool: Texture,
     /// If the pool has them.
     pub(super) tints: Option<Tints>,
@@ -97,7 +99,8 @@ impl Passes {
         let updating = shader(device, "pages_update.wgsl", compose("pages_update.wgsl", &[])?);
         let update =
             |entry| pipeline(device, &updating, entry, &[&view_layout, &state_layout, &update_layout]);
-        let combine_layout = layout(device, "combine pages", &[STORAGE, WRITTEN, UNIFORM, DEPTH_MAP]);
+        let combine_layout =
+            layout(device, "combine pages", &[STORAGE, WRITTEN, UNIFORM, DEPTH_MAP, WRITTEN, STORAGE]);
         let combining = shader(device, "pages_combine.wgsl", compose("pages_combine.wgsl", &[])?);
         let (store_layout, store) = store_pipeline(device)?;
         Ok(Self {
@@ -106,7 +109,8 @@ impl Passes {
             list: update("cs_list"),
             allocate: update("cs_allocate"),
             finish: update("cs_finish"),
-            combine: pipeline(device, &combining, "cs_combine", &[&combine_layout]),
+            ranges: pipeline(device, &combining, "cs_static", &[&combine_layout]),
+            combine: pipeline(device, &combining, "cs_composite", &[&combine_layout]),
             store,
             tints: TintPasses::new(device)?,
             pool_view: PoolView::new(device)?,
@@ -164,7 +168,7 @@ impl Passes {
         let [width, height] = store.size.size_px;
         let size = frame.uniform(bytemuck::cast_slice(&[width, height, store.size.columns, 0]));
         let mut pool = frame.import_texture("page pool", &store.pool, true);
-        self.combine(frame, &steps, (&pool, size), &mut depths);
+        self.combine(frame, &mut steps, (&pool, size), &mut depths);
         let mut tints = store.tints.as_ref().map(|store| store.import(frame));
         if let Some(tints) = &mut tints {
             self.tints.add_to(frame, (casters, &drawn), (&steps.views, &mut depths), tints);
@@ -176,7 +180,7 @@ impl Passes {
         let level_bias = settings.level_bias;
         let warning = Arc::new(move |counts: &[u32]| warning(counts, level_bias));
         frame.publish(ShadowCounts { names: &COUNTS, buffer: counters, bytes: COUNT_BYTES, warning });
-        FrameBuffers { projections, levels, lights, table, pool, tints, pool_view }
+        FrameBuffers { projections, levels, lights, table, pages, pool, tints, pool_view }
     }
 
     /// Adds a pass with some steps of `pages_update.wgsl`. `recorded` is called when it is recorded.
@@ -228,11 +232,11 @@ impl Passes {
         });
     }
 
-    /// Adds the pass that adds static casters to the layers of composite pages.
+    /// Adds the pass that finds the ranges of drawn pages and adds static casters to the layers of composite ones.
     fn combine<'f>(
         &'f self,
         frame: &mut Frame<'f>,
-        steps: &Steps,
+        steps: &mut Steps,
         (pool, size): (&Texture, Uniform),
         depths: &mut Buffer,
     ) {
@@ -240,11 +244,20 @@ impl Passes {
         let views = pass.storage_buffer(&steps.views);
         let depths = pass.storage_buffer_mut(depths, Contents::Preserve);
         let pool = pass.sample(pool);
+        let pages = pass.storage_buffer_mut(&mut steps.pages, Contents::Preserve);
+        let projections = pass.storage_buffer(&steps.projections);
         pass.body(move |ctx| {
-            let bindings =
-                [Bind::Buffer(views), Bind::Buffer(depths), Bind::Uniform(size), Bind::Texture(pool)];
-            let group = ctx.bind_group(&self.combine_layout, &bindings)?;
-            dispatch(&mut ctx.pass, &self.combine, &[group], [LIST_WORKGROUPS, 1, 1]);
+            let bindings = [
+                Bind::Buffer(views),
+                Bind::Buffer(depths),
+                Bind::Uniform(size),
+                Bind::Texture(pool),
+                Bind::Buffer(pages),
+                Bind::Buffer(projections),
+            ];
+            let groups = [ctx.bind_group(&self.combine_layout, &bindings)?];
+            dispatch(&mut ctx.pass, &self.ranges, &groups, [LIST_WORKGROUPS, 1, 1]);
+            dispatch(&mut ctx.pass, &self.combine, &groups, [LIST_WORKGROUPS, 1, 1]);
             Ok(())
         });
     }
@@ -260,10 +273,12 @@ impl Passes {
         let mut pass = frame.render_pass("store");
         let views = pass.storage_buffer(&steps.views);
         let depths = pass.storage_buffer_mut(depths, Contents::Preserve);
+        let pages = pass.storage_buffer(&steps.pages);
         let counters = pass.indirect_buffer(&steps.counters);
         pass.depth(pool, Contents::Preserve);
         pass.body(move |ctx| {
-            let bindings = [Bind::Buffer(views), Bind::Buffer(depths), Bind::Uniform(size)];
+            let bindings =
+                [Bind::Buffer(views), Bind::Buffer(depths), Bind::Uniform(size), Bind::Buffer(pages)];
             let group = ctx.bind_group(&self.store_layout, &bindings)?;
             ctx.pass.set_pipeline(&self.store);
             ctx.pass.set_bind_group(0, &group, &[]);
@@ -383,6 +398,7 @@ fn store_pipeline(device: &wgpu::Device) -> Result<(wgpu::BindGroupLayout, wgpu:
             buffer(0, both, storage(true)),
             buffer(1, fragment, storage(false)),
             buffer(2, both, wgpu::BufferBindingType::Uniform),
+            buffer(3, wgpu::ShaderStages::VERTEX, storage(true)),
         ],
     });
     let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
@@ -401,7 +417,7 @@ fn store_pipeline(device: &wgpu::Device) -> Result<(wgpu::BindGroupLayout, wgpu:
         },
         primitive: wgpu::PrimitiveState::default(),
         depth_stencil: Some(wgpu::DepthStencilState {
-            format: wgpu::TextureFormat::Depth32Float,
+            format: POOL_FORMAT,
             depth_write_enabled: Some(true),
             depth_compare: Some(wgpu::CompareFunction::Always),
             stencil: wgpu::StencilState::default(),

@@ -21,7 +21,7 @@ use crate::views::{MAP_ATLAS, ShadowLight};
 /// The most pages that are always needed: `MAX_COARSE` of `pages_state.wgsl`.
 pub(super) const MAX_COARSE: usize = 512;
 /// The part of the pool that these pages of all directional lights take.
-const COARSE_PART: u32 = 16;
+const COARSE_PART: u32 = 32;
 /// Their least number for a directional light: four pages contain any view.
 const MIN_COARSE: u32 = 4;
 /// The bias along the normal, relative to that of the settings. It moves the shadows of thin casters, which are hardly wider than a pixel, by

@@ -6,8 +6,9 @@ use crate::settings::NamedSettings;
 declare_settings! {
     /// Settings of the technique `virtual`.
     pub struct VirtualSettings {
-        /// Memory of the pool of physical pages, at most the largest buffer of the device: 128 MiB with the default limits of WebGPU. The buffer
-        /// that pages are drawn into takes as much again. Where the pool is too small for what a frame needs, all levels are coarser.
+        /// Memory of the pool of physical pages: 64 MiB are 1,800 pages. The buffer that pages are drawn into takes twice as much; as the largest
+        /// buffer of a device with the default limits of WebGPU has 128 MiB, the pool has at most 64 MiB there. Where the pool is too small for
+        /// what a frame needs, all levels are coarser.
         pool_mib: u32 = 64, power_of_two 4..=1024, in "MiB";
         /// Levels by which maps are coarser (above 0) or finer (below 0) than pixels: with -1, texels are at most half as wide as the pixels that
         /// they are read from.

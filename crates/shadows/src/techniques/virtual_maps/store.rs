@@ -13,10 +13,14 @@ use super::tints::Tints;
 use crate::casters::ShadowCasters;
 use crate::layered_casters::LayeredCasters;
 
-/// The bytes of a page of depth.
-const PAGE_BYTES: u64 = PAGE_PX as u64 * PAGE_PX as u64 * 4;
-/// The size of a physical page: `PhysicalPage` of `pages_update.wgsl`.
-const PHYSICAL_PAGE_BYTES: u64 = 48;
+/// The format of the pool: see `shadows/page_depths.wgsl`.
+pub(super) const POOL_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth16Unorm;
+/// The logarithm to base 2 of the bytes of a texel of the pool.
+const POOL_TEXEL_SHIFT: u32 = 1;
+/// The bytes of a page in the buffers that it is drawn into.
+const DRAWN_PAGE_BYTES: u64 = PAGE_PX as u64 * PAGE_PX as u64 * 4;
+/// The size of `PhysicalPage` of `shadows/pages.wgsl`.
+const PHYSICAL_PAGE_BYTES: u64 = 64;
 /// Words before the entries of the table: `PageTable` of `shadows/virtual.wgsl`.
 const TABLE_HEADER_WORDS: u64 = 4;
 /// Bytes of marks for each entry.
@@ -43,14 +47,15 @@ impl PoolSize {
     /// The most MiB within the limits.
     pub(super) fn new(mib: u32, limits: &wgpu::Limits) -> Result<Self, u32> {
         let size = |mib: u32| {
-            let texels_log2 = (mib << 20).ilog2() - 2;
+            let texels_log2 = mib.ilog2() + 20 - POOL_TEXEL_SHIFT;
             let [width, height] = [texels_log2.div_ceil(2), texels_log2 / 2].map(|side| 1u32 << side);
             let [columns, rows] = [width, height].map(|side| side / PAGE_PX);
             Self { size_px: [width, height], columns, pages: columns * rows }
         };
         let bytes = limits.max_buffer_size.min(limits.max_storage_buffer_binding_size);
         let fits = |size: &Self| {
-            size.size_px[0] <= limits.max_texture_dimension_2d && PAGE_BYTES * u64::from(size.pages) <= bytes
+            size.size_px[0] <= limits.max_texture_dimension_2d
+                && DRAWN_PAGE_BYTES * u64::from(size.pages) <= bytes
         };
         let wanted = size(mib);
         if fits(&wanted) {
@@ -126,7 +131,7 @@ impl PageStore {
             mip_level_count: 1,
             sample_count: 1,
             dimension: wgpu::TextureDimension::D2,
-            format: wgpu::TextureFormat::Depth32Float,
+            format: POOL_FORMAT,
             usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::RENDER_ATTACHMENT,
             view_formats: &[],
         });
@@ -146,10 +151,10 @@ impl PageStore {
             table: buffer("page table", 4 * (TABLE_HEADER_WORDS + entries)),
             marks: buffer("page marks", MARK_BYTES * entries),
             pages: buffer("physical pages", PHYSICAL_PAGE_BYTES * pages),
-            depths: buffer("page depths", PAGE_BYTES * pages),
+            depths: buffer("page depths", DRAWN_PAGE_BYTES * pages),
             tints: tinted.then(|| TintStore {
-                depths: buffer("page tint depths", PAGE_BYTES * pages),
-                densities: buffer("page tint densities", PAGE_BYTES * pages),
+                depths: buffer("page tint depths", DRAWN_PAGE_BYTES * pages),
+                densities: buffer("page tint densities", DRAWN_PAGE_BYTES * pages),
             }),
             entry_count,
             known: Mutex::default(),
@@ -298,12 +303,11 @@ mod tests {
     fn a_pool_has_sides_that_are_powers_of_two_and_is_within_the_limits() {
         let limits = wgpu::Limits::default();
         let pool = |mib| PoolSize::new(mib, &limits);
-        assert_eq!(pool(4), Ok(PoolSize { size_px: [1024, 1024], columns: 7, pages: 49 }));
-        assert_eq!(pool(64), Ok(PoolSize { size_px: [4096, 4096], columns: 30, pages: 900 }));
-        assert_eq!(pool(128), Ok(PoolSize { size_px: [8192, 4096], columns: 60, pages: 1800 }));
+        assert_eq!(pool(4), Ok(PoolSize { size_px: [2048, 1024], columns: 15, pages: 105 }));
+        assert_eq!(pool(64), Ok(PoolSize { size_px: [8192, 4096], columns: 60, pages: 1800 }));
         // Of the default limits, that of storage buffers is reached first.
-        assert_eq!(pool(256), Err(128));
+        assert_eq!(pool(128), Err(64));
         let small = wgpu::Limits { max_texture_dimension_2d: 2048, ..limits };
-        assert_eq!(PoolSize::new(64, &small), Err(16));
+        assert_eq!(PoolSize::new(64, &small), Err(8));
     }
 }
