@@ -9,7 +9,7 @@ use shadowgraph::{Gpu, wgpu};
 pub(crate) fn run<E: Example>(gpu: &Gpu, arguments: &Arguments) -> Result<(), Failure> {
     let mut example = E::new(gpu, arguments.argument.as_deref())?;
     let frames = arguments.frames.unwrap_or(E::FRAMES);
-    let image = target(&gpu.device, E::SIZE_PX);
+    let image = target(&gpu.device, arguments.size_px);
     let progress = if frames > 1 { ProgressBar::new(frames.into()) } else { ProgressBar::hidden() };
     for number in 0..frames {
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
@@ -20,7 +20,7 @@ pub(crate) fn run<E: Example>(gpu: &Gpu, arguments: &Arguments) -> Result<(), Fa
             false => format!("out/{}.png", E::NAME),
         };
         if E::SEQUENCE || number + 1 == frames {
-            let [width, height] = E::SIZE_PX;
+            let [width, height] = arguments.size_px;
             write_png(file.as_ref(), width, height, Pixels::Rgba, &texels(gpu, &image)?)?;
         }
         progress.inc(1);

@@ -84,6 +84,8 @@ struct Arguments {
     window: bool,
     /// The port of a page about the frames.
     serve: Option<u16>,
+    /// The size of the image, or of the window at first.
+    size_px: [u32; 2],
     frames: Option<u32>,
     argument: Option<String>,
 }
@@ -104,13 +106,18 @@ pub fn run_example<E: Example>() -> ExitCode {
 }
 
 fn arguments<E: Example>(mut given: impl Iterator<Item = String>) -> Result<Arguments, Failure> {
-    let mut arguments = Arguments { window: false, serve: None, frames: None, argument: None };
+    let mut arguments =
+        Arguments { window: false, serve: None, size_px: E::SIZE_PX, frames: None, argument: None };
     while let Some(argument) = given.next() {
         match argument.as_str() {
             "--window" => arguments.window = true,
             "--serve" if E::SERVES => match given.next().map(|port| port.parse()) {
                 Some(Ok(port)) => arguments.serve = Some(port),
                 _ => return Err("--serve: expected a port, 0 to 65535".into()),
+            },
+            "--size" => match given.next().as_deref().and_then(size_px) {
+                Some(size_px) => arguments.size_px = size_px,
+                None => return Err("--size: expected WIDTHxHEIGHT, 1 to 4096 pixels each".into()),
             },
             "--frames" => match given.next().map(|count| count.parse()) {
                 Some(Ok(frames @ 1..)) => arguments.frames = Some(frames),
@@ -121,7 +128,7 @@ fn arguments<E: Example>(mut given: impl Iterator<Item = String>) -> Result<Argu
                     if E::ARGUMENT.is_empty() { String::new() } else { format!(", and {}", E::ARGUMENT) };
                 let serve = if E::SERVES { ", --serve PORT" } else { "" };
                 return Err(format!(
-                    "unexpected argument `{argument}`; expected --window{serve}, --frames N{expected}"
+                    "unexpected argument `{argument}`; expected --window{serve}, --size WxH, --frames N{expected}"
                 )
                 .into());
             }
@@ -129,6 +136,13 @@ fn arguments<E: Example>(mut given: impl Iterator<Item = String>) -> Result<Argu
         }
     }
     Ok(arguments)
+}
+
+/// Returns the size in pixels that a text names.
+fn size_px(text: &str) -> Option<[u32; 2]> {
+    let (width, height) = text.split_once('x')?;
+    let side = |text: &str| text.parse().ok().filter(|side| (1..=4096).contains(side));
+    Some([side(width)?, side(height)?])
 }
 
 /// Creates the texture that an example draws into.

@@ -11,7 +11,7 @@ const FRAME: Duration = Duration::from_micros(16_667);
 /// Draws frames until the program is ended, or some.
 pub(super) fn run<E: Example>(gpu: &Gpu, port: u16, arguments: &Arguments) -> Result<(), Failure> {
     let mut example = E::new(gpu, arguments.argument.as_deref())?;
-    let target = target(&gpu.device, E::SIZE_PX);
+    let target = target(&gpu.device, arguments.size_px);
     let mut server = Server::start(port, E::NAME)?;
     println!("{}", server.url());
     let (mut is_frozen, mut number) = (false, 0);

@@ -37,7 +37,7 @@ struct App<'a, E> {
 
 impl<E: Example> ApplicationHandler for App<'_, E> {
     fn resumed(&mut self, event_loop: &ActiveEventLoop) {
-        match Screen::new(event_loop, &self.instance, self.arguments.argument.as_deref()) {
+        match Screen::new(event_loop, &self.instance, self.arguments) {
             Ok(screen) => self.screen = Some(screen),
             Err(failure) => self.fail(event_loop, failure),
         }
@@ -81,9 +81,9 @@ impl<E: Example> Screen<E> {
     fn new(
         event_loop: &ActiveEventLoop,
         instance: &wgpu::Instance,
-        argument: Option<&str>,
+        arguments: &Arguments,
     ) -> Result<Self, Failure> {
-        let size = Size::Physical(E::SIZE_PX.into());
+        let size = Size::Physical(arguments.size_px.into());
         let attributes = WindowAttributes::default().with_title(E::NAME).with_inner_size(size);
         let window = Arc::new(event_loop.create_window(attributes)?);
         let surface = instance.create_surface(window.clone())?;
@@ -99,13 +99,13 @@ impl<E: Example> Screen<E> {
         config.format = srgb.ok_or("this window has no sRGB format")?;
         config.present_mode = wgpu::PresentMode::Fifo;
         let mut screen = Self {
-            example: E::new(&gpu, argument)?,
+            example: E::new(&gpu, arguments.argument.as_deref())?,
             window,
             surface,
             config,
             graph: Graph::new(),
             show: FullscreenShader::wgsl("show", SHOW),
-            image: target(&gpu.device, E::SIZE_PX),
+            image: target(&gpu.device, arguments.size_px),
             gpu,
             drawn: 0,
         };
