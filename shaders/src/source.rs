@@ -140,6 +140,7 @@ pub(crate) const MODULES: &[ModuleSource] = &[
     file!("shadows/lookup.wgsl"),
     file!("shadows/maps.wgsl"),
     file!("shadows/page_filter.wgsl"),
+    file!("shadows/page_blockers.wgsl"),
     file!("shadows/page_depths.wgsl"),
     file!("shadows/page_lookup.wgsl"),
     file!("shadows/pages.wgsl"),

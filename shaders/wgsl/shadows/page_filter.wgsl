@@ -1,7 +1,14 @@
-// The width of the filter of virtual shadow maps: that of the settings, in texels of the level that a point is read from.
+// The width of the filter of virtual shadow maps: that of the settings, in texels of the level that a point is read from, and narrower in
+// shadow near a contact.
 #define_import_path shadowgraph::shadows::page_filter
 #import shadowgraph::receiver::Receiver
+#import shadowgraph::shadows::filter::shadow_sampler
+#import shadowgraph::shadows::lookup::Lookup
+#import shadowgraph::shadows::maps::{compared_in, map_size, stored_depth}
+#import shadowgraph::shadows::page_blockers::{TENT_OF_DISC, penumbra}
+#import shadowgraph::shadows::page_lookup::{Found, projections}
 #import shadowgraph::shadows::pages::Softness
+#import shadowgraph::shadows::tent::tent_depth
 #import shadowgraph::shadows::types::ShadowLight
 
 // `level`: the one whose texels are as wide as the pixel asks for.
@@ -12,4 +19,31 @@ fn softness(projection_index: u32, shadow: ShadowLight, receiver: Receiver, leve
 // The half width of the filter in a level, texels.
 fn half_width(shadow: ShadowLight, soft: Softness, level: u32) -> f32 {
     return shadow.filter_half;
+}
+
+// The half width of a comparison of two by two texels.
+const NARROWEST_HALF: f32 = 1.0;
+
+// The visibility near a contact. The filter is wider than the penumbra of a near blocker, and would light what is in its shadow: thin casters
+// would lose theirs. Where the nearest texels have such a blocker, their comparison alone decides; towards penumbrae as wide as the filter, less
+// and less.
+fn near_contact(light: ShadowLight, lookup: Lookup, found: Found, visibility: f32) -> f32 {
+    let from_centre = lookup.uv * map_size(light.map) - 0.5;
+    let first = floor(from_centre);
+    let at = from_centre - first;
+    let slope = lookup.plane.slope;
+    let rise = max(-at * slope, (1.0 - at) * slope);
+    let depth = tent_depth(lookup.plane, rise.x + rise.y, vec2f(0.0));
+    let narrow = compared_in(light.map, shadow_sampler, lookup.uv, depth);
+    if narrow >= visibility {
+        return visibility;
+    }
+    var blocker = 0.0;
+    for (var i = 0u; i < 4u; i++) {
+        blocker = max(blocker, stored_depth(light.map, vec2i(first) + vec2i(i32(i & 1u), i32(i >> 1u))));
+    }
+    let radius = penumbra(projections[found.page.projection], found.page.level, lookup, blocker);
+    let half = TENT_OF_DISC * ldexp(radius, -i32(found.page.level));
+    let range = max(light.filter_half - NARROWEST_HALF, 1e-3);
+    return mix(visibility, narrow, saturate((light.filter_half - half) / range));
 }

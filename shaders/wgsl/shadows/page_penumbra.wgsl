@@ -5,7 +5,8 @@
 #import shadowgraph::receiver::{Receiver, receiver_noise}
 #import shadowgraph::shadows::lookup::Lookup
 #import shadowgraph::shadows::maps::{map_size, stored_depth}
-#import shadowgraph::shadows::page_lookup::{Found, find_page, levels, look_up_page, projections}
+#import shadowgraph::shadows::page_blockers::{TENT_OF_DISC, penumbra}
+#import shadowgraph::shadows::page_lookup::{Found, find_page, look_up_page, projections}
 #import shadowgraph::shadows::pages::{Projection, Softness, project}
 #import shadowgraph::shadows::tent::tent_depth
 #import shadowgraph::shadows::types::ShadowLight
@@ -19,8 +20,6 @@ const SEARCH_TEXELS: f32 = 3.0;
 const SEARCH_TAPS: u32 = 16u;
 // Levels from one search to the next.
 const SEARCH_STEP: u32 = 2u;
-// The half width of the tent whose variance is that of a light's disc of radius 1 behind a straight edge: sqrt(6) / 2.
-const TENT_OF_DISC: f32 = 1.2247449;
 const GOLDEN_ANGLE: f32 = 2.39996323;
 const TAU: f32 = 6.28318531;
 
@@ -28,21 +27,6 @@ const TAU: f32 = 6.28318531;
 fn spiral(tap: u32, rotation: f32) -> vec2f {
     let angle = f32(tap) * GOLDEN_ANGLE + rotation;
     return sqrt((f32(tap) + 0.5) / f32(SEARCH_TAPS)) * vec2f(cos(angle), sin(angle));
-}
-
-// The radius of the penumbra of a blocker, texels of level 0, in a page of a level.
-fn penumbra(projection: Projection, number: u32, lookup: Lookup, blocker: f32) -> f32 {
-    let level = levels[projection.first_level + number];
-    // Depths change by this over a texel of level 0 towards the light, at w = 1.
-    let per_texel = projection.depth_per_texel * level.depth_scale;
-    if projection.is_perspective == 0u {
-        return projection.light_radius * (blocker - lookup.depth) / per_texel;
-    }
-    // Depth is a + b / w.
-    let b = per_texel / projection.texel_m;
-    let a = lookup.depth - b / lookup.w;
-    let blocker_w = b / max(blocker - a, 1e-9);
-    return projection.light_radius * max(lookup.w - blocker_w, 0.0) / (blocker_w * lookup.w * projection.texel_m);
 }
 
 // The mean radius of the penumbrae, texels of level 0, of the blockers within some texels of a point that darken it: it is nearer to them than
@@ -105,4 +89,9 @@ fn softness(projection_index: u32, shadow: ShadowLight, receiver: Receiver, leve
 // The half width of the filter in a level, texels.
 fn half_width(shadow: ShadowLight, soft: Softness, level: u32) -> f32 {
     return clamp(ldexp(soft.radius, -i32(level)), LEAST_HALF, MAX_HALF);
+}
+
+// The visibility near a contact: that of a filter whose width follows from the blockers is right there.
+fn near_contact(light: ShadowLight, lookup: Lookup, found: Found, visibility: f32) -> f32 {
+    return visibility;
 }

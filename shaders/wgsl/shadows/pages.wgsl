@@ -48,8 +48,8 @@ struct Projection {
     first_entry: u32,
     // Changes with the light: pages of another version are stale. 0: the projection is unused.
     version: u32,
-    // For penumbrae: the tangent of the angular radius of a directional light, or the radius of others, metres; the largest radius of
-    // penumbrae, metres; and the coarsest level that they are read from besides those that pixels ask for.
+    // The tangent of the angular radius of a directional light, or the radius of others, metres. For penumbrae: their largest radius, metres,
+    // and the coarsest level that they are read from besides those that pixels ask for.
     light_radius: f32,
     max_radius_m: f32,
     soft_level: u32,

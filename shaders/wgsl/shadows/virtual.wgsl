@@ -9,7 +9,7 @@
 #import shadowgraph::shadows::page_lookup::{
     Found, find_page, levels, light_shadow, look_up_page, page_table, projections,
 }
-#import shadowgraph::shadows::page_filter::{half_width, softness}
+#import shadowgraph::shadows::page_filter::{half_width, near_contact, softness}
 #import shadowgraph::shadows::pages::{
     BLEND_PART, COARSENING_STEPS, Softness, direction_to_light, narrowing, project, wanted_level,
 }
@@ -26,9 +26,12 @@ fn page_visibility(shadow: ShadowLight, receiver: Receiver, soft: Softness, foun
     }
     var light = shadow;
     light.filter_half = half_width(shadow, soft, found.page.level);
-    let visibility = filtered(light, receiver, lookup);
-    if visibility > 0.0 && is_behind_crease(light, lookup, light.filter_half) {
-        return vec3f(0.0);
+    var visibility = filtered(light, receiver, lookup);
+    if visibility > 0.0 {
+        if is_behind_crease(light, lookup, light.filter_half) {
+            return vec3f(0.0);
+        }
+        visibility = near_contact(light, lookup, found, visibility);
     }
     if TINTED {
         return visibility * tint(light, receiver, lookup);

@@ -1,12 +1,15 @@
 //! The limits of `virtual`: many lights, small pools, and devices with the default limits of WebGPU.
 
 use crate::stage::gpu;
+use glam::DVec3;
 use shadowgraph::options::Aov;
 use shadowgraph::scene::{Camera, Light, LightKind, Scene};
-use shadowgraph::shadows::{PCF, ShadowSettings, TechniqueKind, VIRTUAL, VirtualSettings};
+use shadowgraph::shadows::{PCF, PcssSettings, ShadowSettings, TechniqueKind, VIRTUAL, VirtualSettings};
 use shadowgraph::{Gpu, Pipeline, RenderConfig, RenderedFrame, Renderer, ViewOptions, wgpu};
+use shadowgraph_quality::{Comparator, built_in_cases};
 use shadowgraph_samples::city::city;
 use shadowgraph_samples::demo::demo_scene;
+use shadowgraph_samples::test_scenes::test_scene;
 
 fn config(technique: TechniqueKind) -> RenderConfig {
     RenderConfig { technique: Some(technique.into()), ..Pipeline::minimal_lit().into() }
@@ -74,6 +77,48 @@ fn sizes_of_the_pool_that_are_out_of_range_are_refused() {
         let own = VirtualSettings { pool_mib, ..VirtualSettings::default() };
         let said = ShadowSettings::default().techniques.set(&own).unwrap_err().to_string();
         assert!(said.contains("pool_mib") && said.contains("4, 8, 16"), "{said}");
+    }
+}
+
+/// Returns the percentage of the contacts of slats that are lit, with lights of these radii and a small pool.
+fn missing_contacts(gpu: &Gpu, light: Light, [sun_radius_rad, light_radius_m]: [f32; 2]) -> f64 {
+    let cases = built_in_cases().unwrap().cases;
+    let case = cases.iter().find(|case| case.name() == "slats").unwrap();
+    let mut scene = test_scene("slats").unwrap();
+    scene.insert_light(light);
+    let mut shadows = with_pool(8);
+    let radii = PcssSettings { sun_radius_rad, light_radius_m, ..PcssSettings::default() };
+    shadows.techniques.set(&radii).unwrap();
+    let options = ViewOptions { camera: case.views[0].camera(), size_px: [640, 360], shadows };
+    let aov = Aov::Visibility(0);
+    let mut renderer = Renderer::with_config(gpu, scene, &options.camera, aov, config(VIRTUAL)).unwrap();
+    let mut comparator = Comparator::new(gpu, &renderer, 0).unwrap();
+    let contacts = comparator.measure(&mut renderer, &options).unwrap().errors.missing_contacts;
+    assert!(contacts.contacts > 1000, "{contacts:?}");
+    contacts.missing_percent
+}
+
+#[test]
+fn thin_casters_keep_the_contacts_that_a_wide_filter_would_light() {
+    let Some(gpu) = gpu() else { return };
+    let cases = built_in_cases().unwrap().cases;
+    let case = cases.iter().find(|case| case.name() == "slats").unwrap();
+    let kind = LightKind::Spot {
+        position_world: DVec3::new(3.0, 6.0, -5.0),
+        direction: DVec3::new(-3.0, -6.0, 5.0).normalize(),
+        range: Some(30.0),
+        inner_angle: 0.6,
+        outer_angle: 0.7,
+    };
+    for light in [case.sun(30.0), Light { kind, ..case.sun(30.0) }] {
+        let kind = light.kind;
+        // Penumbrae of the largest lights are as wide as the filter everywhere.
+        let wide = missing_contacts(gpu, light.clone(), [0.2, 10.0]);
+        let missing = missing_contacts(gpu, light, [0.004_65, 0.05]);
+        println!(
+            "{kind:?}: {missing:.2} % of the contacts are lit, with filters of constant width {wide:.2} %"
+        );
+        assert!(missing < 0.9 * wide, "{kind:?}: {missing} and {wide} %");
     }
 }
 

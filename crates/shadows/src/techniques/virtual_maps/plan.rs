@@ -21,7 +21,7 @@ use crate::views::{MAP_ATLAS, ShadowLight};
 /// The most pages that are always needed: `MAX_COARSE` of `pages_state.wgsl`.
 pub(super) const MAX_COARSE: usize = 512;
 /// The part of the pool that these pages of all directional lights take.
-const COARSE_PART: u32 = 32;
+const COARSE_PART: u32 = 16;
 /// Their least number for a directional light: four pages contain any view.
 const MIN_COARSE: u32 = 4;
 /// The bias along the normal, relative to that of the settings. It moves the shadows of thin casters, which are hardly wider than a pixel, by
@@ -34,24 +34,24 @@ const SEARCH_TEXELS: f32 = 3.0;
 /// Texels between the cone of a spot light, or the edge of a face, and the edge of the map.
 const LOCAL_MARGIN_TEXELS: f64 = 8.0;
 
-/// Lights with penumbrae.
+/// The sizes of lights.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Penumbrae {
+struct Radii {
     /// The tangent of the angular radius of directional lights.
     sun_tangent: f32,
     /// The radius of other lights.
-    light_radius_m: f32,
-    /// The largest radius of penumbrae.
-    max_radius_m: f32,
+    light_m: f32,
+    /// The largest radius of penumbrae that are filtered as wide as they are, if they are.
+    penumbra_m: Option<f32>,
 }
 
-impl Penumbrae {
-    fn new(own: &VirtualSettings, lights: &PcssSettings) -> Option<Self> {
-        own.penumbrae.then(|| Self {
+impl Radii {
+    fn new(own: &VirtualSettings, lights: &PcssSettings) -> Self {
+        Self {
             sun_tangent: lights.sun_radius_rad.tan(),
-            light_radius_m: lights.light_radius_m,
-            max_radius_m: own.max_penumbra_m,
-        })
+            light_m: lights.light_radius_m,
+            penumbra_m: own.penumbrae.then_some(own.max_penumbra_m),
+        }
     }
 }
 
@@ -119,10 +119,10 @@ impl VirtualPlan {
         let coarse = coarse.into_iter().map(|(group, Coarse { face, level, page: [x, y] })| {
             [(firsts[group] + face) as i32, level as i32, x, y]
         });
-        let penumbrae = Penumbrae::new(own, &inputs.settings.techniques.get()?);
+        let radii = Radii::new(own, &inputs.settings.techniques.get()?);
         let (mut projections, levels) = gpu_projections(&slots, &viewpoint);
-        if let Some(penumbrae) = &penumbrae {
-            projections.iter_mut().for_each(|projection| soften(projection, penumbrae));
+        projections.iter_mut().for_each(|projection| set_radii(projection, &radii));
+        if radii.penumbra_m.is_some() {
             lights.iter_mut().for_each(|light| light.filter_taps = PENUMBRA_TAPS);
         }
         let coarse = coarse.collect();
@@ -257,15 +257,18 @@ fn light(
 }
 
 /// Gives a projection what penumbrae depend on.
-fn soften(projection: &mut GpuProjection, penumbrae: &Penumbrae) {
-    projection.max_radius_m = penumbrae.max_radius_m;
+fn set_radii(projection: &mut GpuProjection, radii: &Radii) {
+    let is_directional = projection.is_perspective == 0;
+    projection.light_radius = if is_directional { radii.sun_tangent } else { radii.light_m };
+    let Some(penumbra_m) = radii.penumbra_m else { return };
+    projection.max_radius_m = penumbra_m;
     let last = projection.level_count.saturating_sub(1);
-    (projection.light_radius, projection.soft_level) = if projection.is_perspective == 1 {
-        (penumbrae.light_radius_m, last)
-    } else {
-        let levels = (penumbrae.max_radius_m / (SEARCH_TEXELS * projection.texel_m)).log2().ceil();
+    projection.soft_level = if is_directional {
+        let levels = (penumbra_m / (SEARCH_TEXELS * projection.texel_m)).log2().ceil();
         // The coarser one of two levels that are blended.
-        (penumbrae.sun_tangent, (levels.clamp(0.0, 30.0) as u32 + 1).min(last))
+        (levels.clamp(0.0, 30.0) as u32 + 1).min(last)
+    } else {
+        last
     };
 }
 
