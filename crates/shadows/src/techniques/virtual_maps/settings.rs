@@ -12,7 +12,7 @@ declare_settings! {
         pool_mib: u32 = 64, power_of_two 4..=1024, in "MiB";
         /// Levels by which maps are coarser (above 0) or finer (below 0) than pixels: with -1, texels are at most half as wide as the pixels that
         /// they are read from.
-        level_bias: f32 = -1.0, -2..=4, in "levels";
+        level_bias: f32 = -0.75, -2..=4, in "levels";
         /// Penumbrae widen with the distance to the blocker, for lights with the radii of the settings of `pcss`.
         penumbrae: bool = false;
         /// Maximum radius of penumbrae.
