@@ -172,7 +172,10 @@ fn written(plan: &Plan, texture: &str, version: u32) -> Result<(ResourceId, Text
     if (1..=last).contains(&version) {
         return Ok((id, desc));
     }
-    let reason = format!("expected a version from 1 to {last}");
+    let reason = match last {
+        0 => "no pass writes it".into(),
+        last => format!("expected a version from 1 to {last}"),
+    };
     Err(crate::Error::NoImage { name: texture.into(), version, reason })
 }
 
