@@ -10,9 +10,9 @@ declare_settings! {
         /// buffer of a device with the default limits of WebGPU has 128 MiB, the pool has at most 64 MiB there. Where the pool is too small for
         /// what a frame needs, all levels are coarser.
         pool_mib: u32 = 64, power_of_two 4..=1024, in "MiB";
-        /// Levels by which maps are coarser (above 0) or finer (below 0) than pixels: with -1, texels are at most half as wide as the pixels that
-        /// they are read from.
-        level_bias: f32 = -0.75, -2..=4, in "levels";
+        /// Levels by which maps are coarser (above 0) or finer (below 0) than pixels: with 0, texels are at most as wide as the pixels that they
+        /// are read from; with -1, at most half as wide, with harder edges.
+        level_bias: f32 = 0.0, -2..=4, in "levels";
         /// Penumbrae widen with the distance to the blocker, for lights with the radii of the settings of `pcss`.
         penumbrae: bool = false;
         /// Maximum radius of penumbrae.
