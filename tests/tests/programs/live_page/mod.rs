@@ -49,7 +49,8 @@ const SUM: &str = "liveView.texels.reduce((sum, value) => sum + value, 0)";
 
 #[test]
 fn the_custom_engine_is_watched_while_it_runs_frozen_and_moved_by_steps() {
-    let serving = Serving::start(Command::new(example("custom_engine")).args(["--serve", "0"]));
+    let serving =
+        Serving::start(Command::new(example("custom_engine")).args(["--serve", "0", "--size", "320x180"]));
     let Some(mut page) = Page::open(&serving.url) else { return };
     watch(&mut page, "depth");
     let count = |page: &mut Page| page.value("liveView.textures").as_f64().unwrap();

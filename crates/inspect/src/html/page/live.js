@@ -1,6 +1,8 @@
 // A running program: times and memory of its last frames, what it offers to change, and a texture while it changes.
 
 const SHOWN_FRAMES = 600;
+// Milliseconds for which the reason of a refusal is shown.
+const REFUSAL_MS = 5000;
 
 const medianOf = (values) => values.sort((a, b) => a - b)[Math.floor(values.length / 2)];
 
@@ -10,6 +12,7 @@ const liveView = {
   textures: 0,
   controls: {},
   wanted: null,
+  refusedUntil: 0,
 
   build(panel) {
     this.state = h('span', { class: 'hint', role: 'status' }, 'connecting');
@@ -79,7 +82,10 @@ const liveView = {
     if (message.frames) this.showFrames(message.frames, message.times);
     if (message.texture) this.showTexture(message.texture);
     if (message.pixel) this.showPixel(message);
-    if (message.refused) this.state.textContent = `refused: ${message.refused}`;
+    if (message.refused) {
+      this.state.textContent = `refused: ${message.refused}`;
+      this.refusedUntil = performance.now() + REFUSAL_MS;
+    }
   },
 
   showControls(controls) {
@@ -103,7 +109,7 @@ const liveView = {
     const recent = this.frames.slice(-60);
     const median = medianOf(recent.map((tick) => tick.interval_ms));
     this.numbers.textContent = `frame ${last.number}, plan ${last.plan}: ${median.toFixed(1)} ms (median of ${recent.length}), ${bytes(last.bytes)}`;
-    this.state.textContent = 'connected';
+    if (performance.now() > this.refusedUntil) this.state.textContent = 'connected';
     this.drawStrip();
     this.compare(last);
     if (last.plan === frame.live.plan && times.length === order.length) {
