@@ -5,7 +5,7 @@
 //   cs_composite  adds them to composite pages, rounded as they are stored: the same whether the static page is drawn in this frame or kept
 #import shadowgraph::layer_views::{CASTERS_MOVING, LayerViews}
 #import shadowgraph::shadows::page_depths::{LAST_STEP, PageDepths, depth_of_step, page_depths, stored_step}
-#import shadowgraph::shadows::pages::{IS_LAYER, PAGE_PX, PhysicalPage, Projection, place_texel}
+#import shadowgraph::shadows::pages::{IS_LAYER, PAGE_PX, PhysicalPage, Projection, depth_at_infinity, place_texel}
 
 @group(0) @binding(0) var<storage, read> layers: LayerViews;
 @group(0) @binding(1) var<storage, read_write> depths: array<u32>;
@@ -107,10 +107,9 @@ fn keep_range(layer: u32, range: Range, local: u32) {
     if local == 0u && atomicLoad(&last) > 0u {
         let place = layers.views[layer].tag.x;
         let projection = projections[physical_pages[place].page.projection];
-        // z is this times w, plus a constant.
-        let at_infinity = dot(projection.z.xyz, projection.w.xyz);
         physical_pages[place].depths = page_depths(
-            bitcast<f32>(atomicLoad(&first)), bitcast<f32>(atomicLoad(&last)), projection.is_perspective == 1u, at_infinity,
+            bitcast<f32>(atomicLoad(&first)), bitcast<f32>(atomicLoad(&last)), projection.is_perspective == 1u,
+            depth_at_infinity(projection),
         );
     }
     workgroupBarrier();

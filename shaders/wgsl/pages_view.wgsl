@@ -2,7 +2,7 @@
 // darker where the page is kept from an earlier frame. Texels without a caster are dark, free pages black.
 #import shadowgraph::shadows::colors::cascade_tint
 #import shadowgraph::shadows::page_depths::{LAST_STEP, depth_of_step}
-#import shadowgraph::shadows::pages::{Level, PAGE_PX, PageTable, PhysicalPage, Projection}
+#import shadowgraph::shadows::pages::{Level, PAGE_PX, PageTable, PhysicalPage, Projection, depth_at_infinity}
 
 @group(0) @binding(0) var<storage, read> projections: array<Projection>;
 @group(0) @binding(1) var<storage, read> levels: array<Level>;
@@ -59,8 +59,8 @@ fn depth_per_texel(physical: PhysicalPage, depth: f32) -> f32 {
     if projection.is_perspective == 0u {
         return change;
     }
-    // The stored depth is z/w, with z = a w + b.
-    let a = dot(projection.z.xyz, projection.w.xyz);
+    // The depth is z/w, with z = a w + b.
+    let a = depth_at_infinity(projection);
     let b = projection.z.w - a * projection.w.w;
     return change * max((depth - a) / b, 1e-9);
 }

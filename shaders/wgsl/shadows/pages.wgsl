@@ -166,6 +166,11 @@ fn project(projection: Projection, position: vec3f) -> MapPoint {
     return MapPoint(divided, w);
 }
 
+// The depth at an infinite distance from a spot or point light: z is this times w, plus a constant.
+fn depth_at_infinity(projection: Projection) -> f32 {
+    return dot(projection.z.xyz, projection.w.xyz);
+}
+
 // The position of a point in a level, texels.
 fn in_level(point: MapPoint, level_index: u32, level: Level) -> vec2f {
     return ldexp(point.position.xy, vec2i(-i32(level_index))) + level.phase;
