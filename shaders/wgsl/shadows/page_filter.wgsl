@@ -21,12 +21,9 @@ fn half_width(shadow: ShadowLight, soft: Softness, level: u32) -> f32 {
     return shadow.filter_half;
 }
 
-// The half width of a comparison of two by two texels.
-const NARROWEST_HALF: f32 = 1.0;
-
 // The visibility near a contact. The filter is wider than the penumbra of a near blocker, and would light what is in its shadow: thin casters
-// would lose theirs. Where the nearest texels have such a blocker, their comparison alone decides; towards penumbrae as wide as the filter, less
-// and less.
+// would lose theirs. Where the nearest texels have a blocker whose penumbra has no width, their comparison alone decides; towards a half width
+// of a texel, less and less.
 fn near_contact(light: ShadowLight, lookup: Lookup, found: Found, visibility: f32) -> f32 {
     let from_centre = lookup.uv * map_size(light.map) - 0.5;
     let first = floor(from_centre);
@@ -44,6 +41,5 @@ fn near_contact(light: ShadowLight, lookup: Lookup, found: Found, visibility: f3
     }
     let radius = penumbra(projections[found.page.projection], found.page.level, lookup, blocker);
     let half = TENT_OF_DISC * ldexp(radius, -i32(found.page.level));
-    let range = max(light.filter_half - NARROWEST_HALF, 1e-3);
-    return mix(visibility, narrow, saturate((light.filter_half - half) / range));
+    return mix(visibility, narrow, saturate(1.0 - half));
 }

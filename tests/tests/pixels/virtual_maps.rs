@@ -63,8 +63,7 @@ fn each_of_64_lights_in_a_city_has_texels_of_at_most_twice_its_pixels() {
         frame
     };
     let (large, small) = (draw(64), draw(16));
-    // Texels are at most as wide as pixels without coarsening.
-    let texels_per_pixel = coarser_levels(&large).exp2();
+    let texels_per_pixel = (f64::from(VirtualSettings::default().level_bias) + coarser_levels(&large)).exp2();
     assert!(texels_per_pixel <= 2.0, "{:?}", large.counts);
     assert!(coarser_levels(&small) > coarser_levels(&large));
     let said = small.counts.shadow_warning.unwrap();

@@ -59,7 +59,8 @@ pub(super) fn changes(settings: &ShadowSettings, is_directional: bool) -> Vec<(S
         let pool_mib = 2 * own.pool_mib;
         virtual_change(format!("pool_mib: {pool_mib}"), VirtualSettings { pool_mib, ..own.clone() });
         let level_bias = own.level_bias - 1.0;
-        virtual_change(format!("level_bias: {level_bias}"), VirtualSettings { level_bias, ..own });
+        virtual_change(format!("level_bias: {level_bias}"), VirtualSettings { level_bias, ..own.clone() });
+        virtual_change(format!("filter: {narrowest:?}"), VirtualSettings { filter: narrowest, ..own });
     }
     changes
 }

@@ -9,6 +9,7 @@ use super::projections::{
 };
 use super::settings::VirtualSettings;
 use super::slots::{Group, Slots};
+use super::variant::USUAL_TAPS;
 use crate::error::Error;
 use crate::light_params::LightShadowParams;
 use crate::plan::ShadowInputs;
@@ -27,8 +28,6 @@ const MIN_COARSE: u32 = 4;
 /// The bias along the normal, relative to that of the settings. It moves the shadows of thin casters, which are hardly wider than a pixel, by
 /// up to some texels where the light comes in at a low angle.
 const NORMAL_BIAS_PART: f32 = 0.25;
-/// Taps of the filter of penumbrae along each axis.
-pub(super) const PENUMBRA_TAPS: u32 = 4;
 /// The radius of the search for blockers: `SEARCH_TEXELS` of `page_penumbra.wgsl`.
 const SEARCH_TEXELS: f32 = 3.0;
 /// Texels between the cone of a spot light, or the edge of a face, and the edge of the map.
@@ -114,7 +113,7 @@ impl VirtualPlan {
         let mut lights = vec![ShadowLight::default(); inputs.lights.len()];
         for ((candidate, group), first) in candidates.iter().zip(&groups).zip(&firsts) {
             lights[candidate.light as usize] =
-                light(inputs, candidate, &range, *first, group.projections.len());
+                light(inputs, own, candidate, &range, *first, group.projections.len());
         }
         let coarse = coarse.into_iter().map(|(group, Coarse { face, level, page: [x, y] })| {
             [(firsts[group] + face) as i32, level as i32, x, y]
@@ -123,7 +122,7 @@ impl VirtualPlan {
         let (mut projections, levels) = gpu_projections(&slots, &viewpoint);
         projections.iter_mut().for_each(|projection| set_radii(projection, &radii));
         if radii.penumbra_m.is_some() {
-            lights.iter_mut().for_each(|light| light.filter_taps = PENUMBRA_TAPS);
+            lights.iter_mut().for_each(|light| light.filter_taps = USUAL_TAPS);
         }
         let coarse = coarse.collect();
         let main_light = candidates.first().map_or(0, |candidate| candidate.light);
@@ -235,13 +234,17 @@ fn coarse_pages(
 
 fn light(
     inputs: &ShadowInputs<'_>,
+    own: &VirtualSettings,
     candidate: &Candidate<'_>,
     range: &ShadowRange<'_>,
     first: u32,
     count: usize,
 ) -> ShadowLight {
     let is_directional = matches!(candidate.shape, Shape::Directional { .. });
-    let params = LightShadowParams::new(inputs.settings, candidate.own, is_directional);
+    let params = LightShadowParams {
+        filter: candidate.own.and_then(|light| light.filter).unwrap_or(own.filter),
+        ..LightShadowParams::new(inputs.settings, candidate.own, is_directional)
+    };
     let light = ShadowLight::with_params(&params, range.distance_m);
     let eye = (range.camera.position_world() - inputs.origin_world).as_vec3().to_array();
     let texel_uv = [1.0 / PAGE_PX as f32; 2];

@@ -1,7 +1,7 @@
 //! Settings of `virtual`.
 
 use crate::declare_settings;
-use crate::settings::NamedSettings;
+use crate::settings::{NamedSettings, ShadowFilter};
 
 declare_settings! {
     /// Settings of the technique `virtual`.
@@ -12,7 +12,9 @@ declare_settings! {
         pool_mib: u32 = 64, power_of_two 4..=1024, in "MiB";
         /// Levels by which maps are coarser (above 0) or finer (below 0) than pixels: with 0, texels are at most as wide as the pixels that they
         /// are read from; with -1, at most half as wide, with harder edges.
-        level_bias: f32 = 0.0, -2..=4, in "levels";
+        level_bias: f32 = -0.25, -2..=4, in "levels";
+        /// Filter of lights without their own, in place of `cascades.filter` and `atlas.filter`.
+        filter: ShadowFilter = ShadowFilter::Tent7;
         /// Penumbrae widen with the distance to the blocker, for lights with the radii of the settings of `pcss`.
         penumbrae: bool = false;
         /// Maximum radius of penumbrae.

@@ -2,9 +2,11 @@
 
 use shadowgraph_shaders::ModuleSource;
 
-use super::plan::PENUMBRA_TAPS;
 use super::projections::GpuProjection;
 use crate::views::{BIAS_PLANE, ShadowLight};
+
+/// Taps along each axis of the default filter, and of that of penumbrae.
+pub(super) const USUAL_TAPS: u32 = 4;
 
 /// What the lookups of a frame's shadowed lights have in common, and what they need.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -19,11 +21,6 @@ pub(super) struct Variant {
     tinted: bool,
 }
 
-/// Returns the taps of the default filter.
-fn usual_taps(soft: bool) -> u32 {
-    if soft { PENUMBRA_TAPS } else { 3 }
-}
-
 impl Variant {
     /// The number of variants.
     pub(super) const COUNT: u32 = 16;
@@ -33,7 +30,7 @@ impl Variant {
         let mut shadowed = lights.iter().filter(|light| light.view_count > 0);
         let soft = projections.iter().any(|projection| projection.max_radius_m > 0.0);
         let is_usual = |light: &ShadowLight| {
-            light.filter_taps == usual_taps(soft)
+            light.filter_taps == USUAL_TAPS
                 && light.bias_method == BIAS_PLANE
                 && light.normal_sine == 1
                 && light.fades_by_radius == 0
@@ -64,7 +61,7 @@ impl Variant {
     /// Returns the replacement of `shadows/variant.wgsl` for the variant with an index.
     pub(super) fn module(index: u32) -> ModuleSource {
         let Self { directional, usual, soft, tinted } = Self::get(index);
-        let taps = if usual { usual_taps(soft) } else { 0 };
+        let taps = if usual { USUAL_TAPS } else { 0 };
         let text = format!(
             "#define_import_path shadowgraph::shadows::variant\n\
              const FILTER_TAPS: u32 = {taps}u;\n\
@@ -79,6 +76,7 @@ impl Variant {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::VirtualSettings;
     use bytemuck::Zeroable;
 
     #[test]
@@ -90,19 +88,20 @@ mod tests {
 
     #[test]
     fn a_light_that_needs_more_removes_what_lights_have_in_common() {
-        let sun = ShadowLight { view_count: 1, filter_taps: 3, normal_sine: 1, ..ShadowLight::default() };
-        let soft = ShadowLight { filter_taps: 4, ..sun };
+        let taps = VirtualSettings::default().filter.taps();
+        let sun = ShadowLight { view_count: 1, filter_taps: taps, normal_sine: 1, ..ShadowLight::default() };
+        let narrow = ShadowLight { filter_taps: 2, ..sun };
         let (directional, local) =
             (GpuProjection::zeroed(), GpuProjection { is_perspective: 1, ..GpuProjection::zeroed() });
         let of = |lights: &[ShadowLight], projections: &[GpuProjection]| {
             Variant::for_frame(lights, projections, false).index()
         };
         assert_eq!(of(&[sun, ShadowLight::default()], &[directional]), 3);
-        assert_eq!(of(&[sun, soft], &[directional]), 2);
+        assert_eq!(of(&[sun, narrow], &[directional]), 2);
         assert_eq!(of(&[sun], &[directional, local]), 1);
-        assert_eq!(of(&[soft], &[local]), 0);
+        assert_eq!(of(&[narrow], &[local]), 0);
         let wide = GpuProjection { max_radius_m: 1.0, ..directional };
-        assert_eq!(of(&[soft], &[wide]), 7);
+        assert_eq!(of(&[sun], &[wide]), 7);
         assert_eq!(Variant::for_frame(&[sun], &[directional], true).index(), 11);
     }
 }
