@@ -3,7 +3,7 @@
 mod window;
 
 use crate::browser::Page;
-use crate::live_page::{Serving, watch};
+use crate::live_page::{Serving, check_rate, watch};
 use shadowgraph_tests::animated::{SKINNED, add_floor_and_camera};
 use shadowgraph_tests::{program, repository};
 use std::path::Path;
@@ -315,27 +315,31 @@ fn row_43_the_end_of_a_cascade_is_dragged_in_the_window() {
     }
 }
 
+/// Starts the program with a window and a page about it.
+fn serve(display: &Display, arguments: &[&str]) -> Serving {
+    let mut command = Command::new(program().unwrap());
+    command.args(["view", "--adapter", "cpu", "--pipeline", "minimal_lit", "--serve", "0"]).args(arguments);
+    Serving::start(command.env("DISPLAY", &display.name).env_remove("WAYLAND_DISPLAY"))
+}
+
+#[test]
+fn the_window_of_a_small_scene_is_watched() {
+    let Some(display) = Display::open() else { return };
+    // The panel takes half of it.
+    let serving = serve(&display, &["--scene", "cube", "--size", "640x180"]);
+    let Some(mut page) = Page::open(&serving.url) else { return };
+    watch(&mut page, "lighting/lit");
+    check_rate(&mut page);
+    page.keep("small_scene.png");
+}
+
 #[test]
 fn the_window_is_watched_on_a_page_that_changes_the_technique() {
     let Some(display) = Display::open() else { return };
     let dir = tempfile::tempdir().unwrap();
     let recording = dir.path().join("page.frames");
     let recording = recording.to_str().unwrap();
-    let mut command = Command::new(program().unwrap());
-    command.args([
-        "view",
-        "--size",
-        "640x360",
-        "--adapter",
-        "cpu",
-        "--pipeline",
-        "minimal_lit",
-        "--serve",
-        "0",
-        "--record",
-        recording,
-    ]);
-    let serving = Serving::start(command.env("DISPLAY", &display.name).env_remove("WAYLAND_DISPLAY"));
+    let serving = serve(&display, &["--size", "640x360", "--record", recording]);
     let Some(mut page) = Page::open(&serving.url) else { return };
     watch(&mut page, "lighting/lit");
     page.value("liveView.ask({ pixel: [40, 100] })");

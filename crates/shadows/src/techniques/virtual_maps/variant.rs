@@ -60,7 +60,7 @@ impl Variant {
 
     /// Returns the replacement of `shadows/variant.wgsl` for the variant with an index.
     pub(super) fn module(index: u32) -> ModuleSource {
-        let Self { directional, usual, soft, tinted } = Self::get(index);
+        let Self { directional, usual, tinted, .. } = Self::get(index);
         let taps = if usual { USUAL_TAPS } else { 0 };
         let text = format!(
             "#define_import_path shadowgraph::shadows::variant\n\
