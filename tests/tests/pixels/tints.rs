@@ -60,7 +60,8 @@ fn maps_and_rays_agree_on_the_colours_behind_stained_glass() {
         options.shadows.atlas.filter = ShadowFilter::Tent2;
         // As rays do, compare at the centres of pixels, in narrow texels.
         options.shadows.supersample = false;
-        let own = VirtualSettings { level_bias: -1.0, ..VirtualSettings::default() };
+        let own =
+            VirtualSettings { level_bias: -1.0, filter: ShadowFilter::Tent2, ..VirtualSettings::default() };
         options.shadows.techniques.set(&own).unwrap();
         let truth = mask(gpu, &scene, &hard(&options), RAYTRACED.into());
         let coloured = coloured(&truth);
