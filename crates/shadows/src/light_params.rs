@@ -29,11 +29,14 @@ pub(crate) struct LightShadowParams {
 }
 
 impl LightShadowParams {
-    /// Returns the parameters of a light in the map of cascades, or of one in the atlas.
-    pub(crate) fn new(settings: &ShadowSettings, own: Option<&LightShadows>, has_cascades: bool) -> Self {
+    /// Returns the parameters of a light in a map whose filter is `map_filter`.
+    pub(crate) fn new(
+        settings: &ShadowSettings,
+        own: Option<&LightShadows>,
+        map_filter: ShadowFilter,
+    ) -> Self {
         let ShadowSettings { fade_fraction, measure, supersample, close_creases, ref bias, .. } = *settings;
-        let filter = if has_cascades { settings.cascades.filter } else { settings.atlas.filter };
-        let filter = own.and_then(|own| own.filter).unwrap_or(filter);
+        let filter = own.and_then(|own| own.filter).unwrap_or(map_filter);
         let bias = own.map_or_else(
             || bias.clone(),
             |own| BiasSettings {
@@ -109,9 +112,9 @@ impl LightShadowParams {
 
 /// Returns the largest requirements of any light's settings.
 pub(crate) fn settings_requirements(settings: &ShadowSettings) -> Requirements {
-    let all = [true, false].into_iter().flat_map(|has_cascades| {
+    let all = [settings.cascades.filter, settings.atlas.filter].into_iter().flat_map(|map_filter| {
         let lights = settings.lights.iter().map(Some).chain([None]);
-        lights.map(move |own| LightShadowParams::new(settings, own, has_cascades))
+        lights.map(move |own| LightShadowParams::new(settings, own, map_filter))
     });
     all.fold(Requirements::NONE, |most, params| Requirements {
         kernel_radius_texels: most.kernel_radius_texels.max(params.kernel_radius_texels),

@@ -218,8 +218,9 @@ impl<'a> Planner<'a> {
     }
 
     fn light_params(&self, candidate: &Candidate<'_>, has_cascades: bool) -> LightShadowParams {
-        LightShadowParams::new(self.inputs.settings, candidate.own, has_cascades)
-            .with_requirements(&self.requirements)
+        let settings = self.inputs.settings;
+        let map_filter = if has_cascades { settings.cascades.filter } else { settings.atlas.filter };
+        LightShadowParams::new(settings, candidate.own, map_filter).with_requirements(&self.requirements)
     }
 
     fn cull(&self, volume: &CullVolume) -> Vec<u32> {

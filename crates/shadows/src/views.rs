@@ -255,7 +255,7 @@ impl ShadowLight {
     /// `distance_m` (above 0) as the settings say.
     #[must_use]
     pub fn new(settings: &ShadowSettings, distance_m: f64) -> Self {
-        Self::with_params(&LightShadowParams::new(settings, None, true), distance_m)
+        Self::with_params(&LightShadowParams::new(settings, None, settings.cascades.filter), distance_m)
     }
 
     pub(crate) fn with_params(params: &LightShadowParams, distance_m: f64) -> Self {

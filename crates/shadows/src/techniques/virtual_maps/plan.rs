@@ -92,15 +92,15 @@ impl VirtualPlan {
         let mut coarse = Vec::new();
         let mut groups = Vec::new();
         candidates.retain(|candidate| {
-            let projections = projections(inputs, candidate);
-            let own = coarse_pages(&projections, &viewpoint, &view, budget);
-            let fits = coarse.len() + own.len() <= MAX_COARSE.min(page_count as usize / 2);
+            let projections = projections(inputs, own, candidate);
+            let pages = coarse_pages(&projections, &viewpoint, &view, budget);
+            let fits = coarse.len() + pages.len() <= MAX_COARSE.min(page_count as usize / 2);
             if fits {
                 let keeps = match candidate.shape {
                     Shape::Directional { .. } => inputs.settings.cascades.cache,
                     Shape::Spot { .. } | Shape::Point { .. } => inputs.settings.atlas.cache,
                 };
-                coarse.extend(own.into_iter().map(|page| (groups.len(), page)));
+                coarse.extend(pages.into_iter().map(|page| (groups.len(), page)));
                 groups.push(Group { projections, keeps });
             } else {
                 let reason = UnshadowedReason::PoolFull;
@@ -163,9 +163,12 @@ impl ViewBounds {
 }
 
 /// Returns the projections of a light.
-fn projections(inputs: &ShadowInputs<'_>, candidate: &Candidate<'_>) -> Vec<Projection> {
-    let is_directional = matches!(candidate.shape, Shape::Directional { .. });
-    let params = LightShadowParams::new(inputs.settings, candidate.own, is_directional);
+fn projections(
+    inputs: &ShadowInputs<'_>,
+    own: &VirtualSettings,
+    candidate: &Candidate<'_>,
+) -> Vec<Projection> {
+    let params = LightShadowParams::new(inputs.settings, candidate.own, own.filter);
     let slope_bias_milli = params.slope_bias_milli(1.0);
     let near_m = params.near_m.unwrap_or(f64::from(inputs.settings.atlas.spot_near_m));
     let local = |cone, rotation| {
@@ -240,11 +243,7 @@ fn light(
     first: u32,
     count: usize,
 ) -> ShadowLight {
-    let is_directional = matches!(candidate.shape, Shape::Directional { .. });
-    let params = LightShadowParams {
-        filter: candidate.own.and_then(|light| light.filter).unwrap_or(own.filter),
-        ..LightShadowParams::new(inputs.settings, candidate.own, is_directional)
-    };
+    let params = LightShadowParams::new(inputs.settings, candidate.own, own.filter);
     let light = ShadowLight::with_params(&params, range.distance_m);
     let eye = (range.camera.position_world() - inputs.origin_world).as_vec3().to_array();
     let texel_uv = [1.0 / PAGE_PX as f32; 2];
