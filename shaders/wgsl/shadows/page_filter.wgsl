@@ -1,24 +1,41 @@
-// The width of the filter of virtual shadow maps: that of the settings, in texels of the level that a point is read from, and narrower in
-// shadow near a contact.
+// The width of the filter of virtual shadow maps: that of the settings, in texels of the level that a point is read from, and narrower where
+// penumbrae are.
 #define_import_path shadowgraph::shadows::page_filter
 #import shadowgraph::receiver::Receiver
 #import shadowgraph::shadows::filter::shadow_sampler
 #import shadowgraph::shadows::lookup::Lookup
 #import shadowgraph::shadows::maps::{compared_in, map_size, stored_depth}
-#import shadowgraph::shadows::page_blockers::{TENT_OF_DISC, penumbra}
+#import shadowgraph::shadows::page_blockers::{TENT_OF_DISC, penumbra, penumbra_at, spiral}
 #import shadowgraph::shadows::page_lookup::{Found, projections}
 #import shadowgraph::shadows::pages::Softness
 #import shadowgraph::shadows::tent::tent_depth
 #import shadowgraph::shadows::types::ShadowLight
+
+// The half width of a comparison of two by two texels.
+const NARROWEST_HALF: f32 = 1.0;
+const SEARCH_TAPS: u32 = 8u;
 
 // `level`: the one whose texels are as wide as the pixel asks for.
 fn softness(projection_index: u32, shadow: ShadowLight, receiver: Receiver, level: f32) -> Softness {
     return Softness(level, 0.0);
 }
 
-// The half width of the filter in a level, texels.
-fn half_width(shadow: ShadowLight, soft: Softness, level: u32) -> f32 {
-    return shadow.filter_half;
+// The half width of the filter at a point, texels: that of the settings, or of the penumbrae of the blockers within it, where they are narrower.
+fn half_width(light: ShadowLight, soft: Softness, lookup: Lookup, found: Found) -> f32 {
+    let projection = projections[found.page.projection];
+    var blockers = 0.0;
+    var sum = 0.0;
+    for (var i = 0u; i < SEARCH_TAPS; i++) {
+        let radius = penumbra_at(light, projection, found.page.level, lookup, light.filter_half * spiral(i, SEARCH_TAPS, 0.0));
+        if radius >= 0.0 {
+            blockers += 1.0;
+            sum += radius;
+        }
+    }
+    if blockers == 0.0 {
+        return light.filter_half;
+    }
+    return clamp(TENT_OF_DISC * ldexp(sum / blockers, -i32(found.page.level)), NARROWEST_HALF, light.filter_half);
 }
 
 // The visibility near a contact. The filter is wider than the penumbra of a near blocker, and would light what is in its shadow: thin casters

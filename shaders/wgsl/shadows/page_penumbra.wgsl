@@ -4,11 +4,9 @@
 #define_import_path shadowgraph::shadows::page_filter
 #import shadowgraph::receiver::{Receiver, receiver_noise}
 #import shadowgraph::shadows::lookup::Lookup
-#import shadowgraph::shadows::maps::{map_size, stored_depth}
-#import shadowgraph::shadows::page_blockers::{TENT_OF_DISC, penumbra}
+#import shadowgraph::shadows::page_blockers::{TENT_OF_DISC, penumbra_at, spiral}
 #import shadowgraph::shadows::page_lookup::{Found, find_page, look_up_page, projections}
 #import shadowgraph::shadows::pages::{Projection, Softness, project}
-#import shadowgraph::shadows::tent::tent_depth
 #import shadowgraph::shadows::types::ShadowLight
 
 // The largest half width of the tent, texels: the border of a page is a texel wider. Penumbrae are at least half as wide in the level that they
@@ -20,35 +18,22 @@ const SEARCH_TEXELS: f32 = 3.0;
 const SEARCH_TAPS: u32 = 16u;
 // Levels from one search to the next.
 const SEARCH_STEP: u32 = 2u;
-const GOLDEN_ANGLE: f32 = 2.39996323;
 const TAU: f32 = 6.28318531;
-
-// A point in the unit disc.
-fn spiral(tap: u32, rotation: f32) -> vec2f {
-    let angle = f32(tap) * GOLDEN_ANGLE + rotation;
-    return sqrt((f32(tap) + 0.5) / f32(SEARCH_TAPS)) * vec2f(cos(angle), sin(angle));
-}
 
 // The mean radius of the penumbrae, texels of level 0, of the blockers within some texels of a point that darken it: it is nearer to them than
 // the radius of their penumbra. 0 without any.
 fn blocker_penumbra(shadow: ShadowLight, projection: Projection, number: u32, lookup: Lookup, rotation: f32) -> f32 {
-    let at = lookup.uv * map_size(shadow.map);
-    let slope = lookup.plane.slope;
     let texel = exp2(f32(number));
     var blockers = 0.0;
     var sum = 0.0;
     var i = 0u;
     loop {
-        let tap = SEARCH_TEXELS * spiral(i, rotation);
-        let rise = abs(dot(slope, tap)) + 0.5 * (abs(slope.x) + abs(slope.y));
-        let stored = stored_depth(shadow.map, vec2i(floor(at + tap)));
-        if stored > tent_depth(lookup.plane, rise, tap) {
-            let radius = penumbra(projection, number, lookup, stored);
-            // A texel is as wide as it is far.
-            if radius >= (length(tap) - 1.0) * texel {
-                blockers += 1.0;
-                sum += radius;
-            }
+        let tap = SEARCH_TEXELS * spiral(i, SEARCH_TAPS, rotation);
+        let radius = penumbra_at(shadow, projection, number, lookup, tap);
+        // A texel is as wide as it is far.
+        if radius >= max((length(tap) - 1.0) * texel, 0.0) {
+            blockers += 1.0;
+            sum += radius;
         }
         i++;
         if i == SEARCH_TAPS {
@@ -87,8 +72,8 @@ fn softness(projection_index: u32, shadow: ShadowLight, receiver: Receiver, leve
 }
 
 // The half width of the filter in a level, texels.
-fn half_width(shadow: ShadowLight, soft: Softness, level: u32) -> f32 {
-    return clamp(ldexp(soft.radius, -i32(level)), LEAST_HALF, MAX_HALF);
+fn half_width(light: ShadowLight, soft: Softness, lookup: Lookup, found: Found) -> f32 {
+    return clamp(ldexp(soft.radius, -i32(found.page.level)), LEAST_HALF, MAX_HALF);
 }
 
 // The visibility near a contact: that of a filter whose width follows from the blockers is right there.

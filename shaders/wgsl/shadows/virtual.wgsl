@@ -25,7 +25,7 @@ fn page_visibility(shadow: ShadowLight, receiver: Receiver, soft: Softness, foun
         return vec3f(1.0);
     }
     var light = shadow;
-    light.filter_half = half_width(shadow, soft, found.page.level);
+    light.filter_half = half_width(shadow, soft, lookup, found);
     var visibility = filtered(light, receiver, lookup);
     if visibility > 0.0 {
         if is_behind_crease(light, lookup, light.filter_half) {
