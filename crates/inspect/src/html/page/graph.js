@@ -220,7 +220,9 @@ const graphView = {
     const wide = s('path', { d: pathOf(arrow.points), fill: 'none', stroke: 'transparent', 'stroke-width': 12, ...hint(hintText) });
     const middle = arrow.points.length > 2 ? arrow.points[Math.floor(arrow.points.length / 2)]
       : { x: (arrow.points[0].x + arrow.points[1].x) / 2, y: (arrow.points[0].y + arrow.points[1].y) / 2 };
-    const text = names.length > 2 ? `${clip(names[0], 14)} and ${names.length - 1} more` : names.map((name) => clip(name, names.length > 1 ? 14 : 26)).join(', ');
+    // It fits between two boxes, or in the place of a box where the arrow passes a layer.
+    const length = arrow.points.length > 2 ? 28 : 14;
+    const text = names.length > 1 ? `${clip(names[0], length - 3)} +${names.length - 1}` : clip(names[0], length);
     const label = labels ? s('text', { class: 'label', x: middle.x, y: middle.y - 3, 'text-anchor': 'middle' }, text) : null;
     return { line: s('g', { class: 'line' }, line, wide), label: label ?? '' };
   },
