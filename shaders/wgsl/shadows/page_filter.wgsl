@@ -11,8 +11,8 @@
 #import shadowgraph::shadows::tent::tent_depth
 #import shadowgraph::shadows::types::ShadowLight
 
-// That of `Tent3`: shadows narrower than a pixel fall between the texels of a narrower filter.
-const NARROWEST_HALF: f32 = 1.5;
+// Shadows narrower than a pixel fall between the texels of narrower filters.
+const NARROWEST_HALF: f32 = 2.0;
 const SEARCH_TAPS: u32 = 8u;
 
 // `level`: the one whose texels are as wide as the pixel asks for.
