@@ -80,6 +80,10 @@ impl Gpu {
     /// # Errors
     /// None in practice: the noop adapter is always available.
     pub fn noop() -> Result<Self, Error> {
+        Self::from_adapter(&Self::noop_adapter()?)
+    }
+
+    pub(crate) fn noop_adapter() -> Result<wgpu::Adapter, Error> {
         let noop = wgpu::NoopBackendOptions { enable: true, ..Default::default() };
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
             backends: wgpu::Backends::NOOP,
@@ -89,7 +93,7 @@ impl Gpu {
             ..wgpu::InstanceDescriptor::new_without_display_handle()
         });
         let adapters = pollster::block_on(instance.enumerate_adapters(wgpu::Backends::NOOP));
-        Self::from_adapter(&choose(adapters, &AdapterChoice::Auto)?)
+        choose(adapters, &AdapterChoice::Auto)
     }
 
     /// Opens a device of an adapter, with the optional features that it has and its limits of sizes.

@@ -34,6 +34,31 @@ fn every_built_in_pipeline_has_a_plan_with_every_kind_of_technique() {
 }
 
 #[test]
+fn every_pipeline_and_technique_runs_with_the_default_limits_and_features_of_webgpu() {
+    let adapter = Gpu::noop_adapter().unwrap();
+    let opened = adapter.request_device(&wgpu::DeviceDescriptor::default());
+    let (device, queue) = pollster::block_on(opened).unwrap();
+    let gpu = Gpu { device, queue, adapter: adapter.get_info() };
+    let techniques = Techniques::built_in();
+    let kinds = techniques.kinds().iter().map(|kind| (kind.name.to_owned(), "minimal_lit"));
+    let modified = ["pcf+contact", "virtual+screen"].map(|name| (name.to_owned(), "forward"));
+    let others = BUILT_IN.iter().flat_map(|&name| ["pcf", "virtual"].map(|kind| (kind.to_owned(), name)));
+    for (technique, name) in kinds.chain(modified).chain(others) {
+        let pipeline = name.parse().unwrap();
+        let technique = Some(techniques.find(&technique).unwrap());
+        let config = RenderConfig { technique, pipeline, ..RenderConfig::default() };
+        let scene = demo_scene();
+        let camera = scene.cameras[0].clone();
+        let drawn = gpu.checked(|| {
+            let mut renderer = Renderer::with_config(&gpu, scene, &camera, Aov::Color, config)?;
+            let options = ViewOptions { camera, size_px: [64, 36], shadows: ShadowSettings::default() };
+            renderer.draw(&gpu, &options)
+        });
+        assert!(drawn.is_ok(), "{technique:?} in {name}: {:?}", drawn.err());
+    }
+}
+
+#[test]
 fn deferred_lighting_with_several_samples_is_refused() {
     let scene = demo_scene();
     let camera = scene.cameras[0].clone();
