@@ -19,7 +19,12 @@ pub(crate) const MAX_COLOR_ATTACHMENTS: usize = 8;
 /// device.destroy();
 /// assert!(device_is_lost(&device));
 /// ```
+///
+/// In browsers it returns `false`: there only the callback reports it.
 pub fn device_is_lost(device: &wgpu::Device) -> bool {
+    if cfg!(target_arch = "wasm32") {
+        return false;
+    }
     // A lost device returns a buffer without an error, but every use of it fails.
     let scope = device.push_error_scope(wgpu::ErrorFilter::Validation);
     let buffer = device.create_buffer(&wgpu::BufferDescriptor {
@@ -39,17 +44,41 @@ pub(crate) fn create_checked<T>(
     bytes: u64,
     create: impl FnOnce(&wgpu::Device) -> T,
 ) -> Result<T, Error> {
-    let scope = device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
-    let created = create(device);
-    if poll_once(scope.pop()).is_some() {
+    let (created, error) = with_error_scopes(device, &[wgpu::ErrorFilter::OutOfMemory], || create(device));
+    if error.is_some() {
         return Err(Error::OutOfMemory { resource: name.into(), bytes });
     }
     if device_is_lost(device) { Err(Error::DeviceLost) } else { Ok(created) }
 }
 
-/// Returns the result of a future that is ready immediately. In browsers error scopes are not; there wgpu's errors go to
-/// the console instead.
-pub(crate) fn poll_once<T>(future: impl Future<Output = Option<T>>) -> Option<T> {
+/// Runs `work` in error scopes, the last of which is the innermost, and returns the first error of wgpu too. Without a scope
+/// it would go to the handler of [`Device::on_uncaptured_error`](wgpu::Device::on_uncaptured_error). In browsers, where
+/// errors arrive later, it goes there.
+///
+/// ```
+/// use shadowgraph_core::{with_error_scopes, wgpu};
+/// let (device, _queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
+/// let (_sampler, error) = with_error_scopes(&device, &[wgpu::ErrorFilter::Validation], || {
+///     device.create_sampler(&wgpu::SamplerDescriptor { anisotropy_clamp: 0, ..Default::default() })
+/// });
+/// assert!(error.is_some());
+/// ```
+pub fn with_error_scopes<T>(
+    device: &wgpu::Device,
+    filters: &[wgpu::ErrorFilter],
+    work: impl FnOnce() -> T,
+) -> (T, Option<wgpu::Error>) {
+    let Some((&filter, inner)) = filters.split_first().filter(|_| cfg!(not(target_arch = "wasm32"))) else {
+        return (work(), None);
+    };
+    let scope = device.push_error_scope(filter);
+    let (done, error) = with_error_scopes(device, inner, work);
+    let own = poll_once(scope.pop());
+    (done, error.or(own))
+}
+
+/// Returns the result of a future that is ready immediately.
+fn poll_once<T>(future: impl Future<Output = Option<T>>) -> Option<T> {
     match pin!(future).poll(&mut Context::from_waker(Waker::noop())) {
         Poll::Ready(result) => result,
         Poll::Pending => None,

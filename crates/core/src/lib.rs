@@ -94,7 +94,7 @@ pub use context::{BodyResult, ComputeContext, EncoderContext, RenderContext, Res
 pub use declaration::{CopyOp, Options, OrderPolicy, Origin, PassKind};
 pub use desc::{BufferDesc, Extent, Format, ResourceDesc, TextureDesc};
 #[cfg(feature = "gpu")]
-pub use device::device_is_lost;
+pub use device::{device_is_lost, with_error_scopes};
 pub use dump::{JSON_SCHEMA, describe};
 pub use error::Error;
 #[cfg(feature = "gpu")]

@@ -2,16 +2,18 @@
 
 use crate::declaration::PassKind;
 use crate::error::Error;
+use crate::execute::ReadBack;
 use crate::handle::PassId;
 use crate::plan::Plan;
 use crate::times::PassTime;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};
-use std::time::Instant;
+use web_time::Instant;
 
 /// Measures every pass of one frame: CPU time of recording, and GPU time where the device has timestamps.
 ///
-/// Pass it to [`Compiled::execute_timed`](crate::Compiled::execute_timed), submit, then [`read`](Self::read).
+/// Pass it to [`Compiled::execute_timed`](crate::Compiled::execute_timed), submit, then [`read`](Self::read), which waits for
+/// the GPU where the times are not [ready](Self::is_ready).
 ///
 /// GPU times require a device with `TIMESTAMP_QUERY` (for copy and encoder passes also
 /// `TIMESTAMP_QUERY_INSIDE_ENCODERS`), a frame of at most 2,048 passes, and a submitted encoder.
@@ -62,10 +64,10 @@ struct TimestampQueries {
     inside_passes: bool,
 }
 
-/// The results of a query set: one number for each query, read back when the frame has completed.
+/// The results of a query set: one number for each query.
 struct QueryResults {
     resolved: wgpu::Buffer,
-    readable: wgpu::Buffer,
+    read_back: Option<ReadBack>,
 }
 
 /// Counts of triangles by pass.
@@ -103,14 +105,19 @@ impl Timer {
             .then(|| TriangleQueries::new(device, position));
     }
 
-    pub(crate) fn end(&mut self, encoder: &mut wgpu::CommandEncoder) {
-        if let Some(gpu) = &self.gpu {
-            let count = self.passes.len() as u32 * 2;
-            gpu.results.resolve(encoder, &gpu.set, count);
+    pub(crate) fn end(
+        &mut self,
+        device: &wgpu::Device,
+        encoder: &mut wgpu::CommandEncoder,
+    ) -> Result<(), Error> {
+        let count = self.passes.len() as u32;
+        if let Some(gpu) = &mut self.gpu {
+            gpu.results.resolve(device, encoder, &gpu.set, count * 2)?;
         }
-        if let Some(triangles) = &self.triangles {
-            triangles.results.resolve(encoder, &triangles.set, self.passes.len() as u32);
+        if let Some(triangles) = &mut self.triangles {
+            triangles.results.resolve(device, encoder, &triangles.set, count)?;
         }
+        Ok(())
     }
 
     pub(crate) fn draws(&self, pass: PassId, draws: u32) {
@@ -162,15 +169,23 @@ impl Timer {
         step.map_or(separate, |&(start, end)| (start as usize * 2, end as usize * 2 - 1, together))
     }
 
+    /// Returns whether the times of the submitted frame have arrived, so that [`read`](Self::read) does not wait. They arrive while the
+    /// device is polled or something else is submitted; in a browser, between two calls from its event loop.
+    pub fn is_ready(&self) -> bool {
+        let gpu = self.gpu.iter().map(|gpu| &gpu.results);
+        let mut results = gpu.chain(self.triangles.iter().map(|triangles| &triangles.results));
+        results.all(|results| results.read_back.as_ref().is_none_or(ReadBack::is_ready))
+    }
+
     /// Waits for the submitted frame and returns the times, in order of recording. They are empty if no frame was recorded
-    /// with this timer.
+    /// with this timer since the last call. Browsers cannot wait: ask [`is_ready`](Self::is_ready) there.
     ///
     /// # Errors
     /// When the device is lost or the times cannot be mapped.
-    pub fn read(&self, device: &wgpu::Device, queue: &wgpu::Queue) -> Result<Vec<PassTime>, Error> {
-        let Some(plan) = &self.plan else { return Ok(Vec::new()) };
-        let ticks = self.gpu.as_ref().map(|gpu| gpu.results.read(device)).transpose()?;
-        let triangles = self.triangles.as_ref().map(|queries| queries.results.read(device)).transpose()?;
+    pub fn read(&mut self, device: &wgpu::Device, queue: &wgpu::Queue) -> Result<Vec<PassTime>, Error> {
+        let Some(plan) = self.plan.take() else { return Ok(Vec::new()) };
+        let ticks = self.gpu.as_mut().map(|gpu| gpu.results.read(device)).transpose()?;
+        let triangles = self.triangles.as_mut().map(|queries| queries.results.read(device)).transpose()?;
         let period = f64::from(queue.get_timestamp_period());
         let gpu_ms = |begin: usize, end: usize| {
             let ticks = ticks.as_ref()?;
@@ -181,7 +196,7 @@ impl Timer {
         let gpu_ms_since_first =
             |query: usize| Some(ticks.as_ref()?.get(query)?.checked_sub(first?)? as f64 * period * 1e-6);
         let times = self.passes.iter().zip(&self.cpu).enumerate().map(|(position, (&pass, cpu))| {
-            let (begin, end, shared_by) = self.queries_at(position, plan);
+            let (begin, end, shared_by) = self.queries_at(position, &plan);
             let renders = plan.pass(pass).kind == PassKind::Render;
             let draws = self.draws[position].load(Ordering::Relaxed);
             PassTime {
@@ -230,36 +245,31 @@ impl TriangleQueries {
 
 impl QueryResults {
     fn new(device: &wgpu::Device, count: u32) -> Self {
-        let buffer = |label, usage| {
-            let size = u64::from(count) * 8;
-            device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some(label),
-                size,
-                usage,
-                mapped_at_creation: false,
-            })
-        };
-        use wgpu::BufferUsages as Usage;
-        Self {
-            resolved: buffer("queries, resolved", Usage::QUERY_RESOLVE | Usage::COPY_SRC),
-            readable: buffer("queries, readable", Usage::MAP_READ | Usage::COPY_DST),
-        }
+        let resolved = device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("queries"),
+            size: u64::from(count) * 8,
+            usage: wgpu::BufferUsages::QUERY_RESOLVE | wgpu::BufferUsages::COPY_SRC,
+            mapped_at_creation: false,
+        });
+        Self { resolved, read_back: None }
     }
 
-    fn resolve(&self, encoder: &mut wgpu::CommandEncoder, set: &wgpu::QuerySet, count: u32) {
+    fn resolve(
+        &mut self,
+        device: &wgpu::Device,
+        encoder: &mut wgpu::CommandEncoder,
+        set: &wgpu::QuerySet,
+        count: u32,
+    ) -> Result<(), Error> {
         encoder.resolve_query_set(set, 0..count, &self.resolved, 0);
-        encoder.copy_buffer_to_buffer(&self.resolved, 0, &self.readable, 0, self.readable.size());
+        let all = 0..self.resolved.size();
+        self.read_back = Some(ReadBack::buffer(device, encoder, "queries", &self.resolved, all)?);
+        Ok(())
     }
 
-    fn read(&self, device: &wgpu::Device) -> Result<Vec<u64>, Error> {
-        let failed = |error: &dyn std::fmt::Display| Error::Body {
-            pass: "timer".into(),
-            message: format!("the query results cannot be read: {error}"),
-        };
-        self.readable.slice(..).map_async(wgpu::MapMode::Read, |_| ());
-        device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| failed(&error))?;
-        let view = self.readable.get_mapped_range(..).map_err(|error| failed(&error))?;
-        let number = |bytes: &[u8]| u64::from_le_bytes([0, 1, 2, 3, 4, 5, 6, 7].map(|i| bytes[i]));
-        Ok(view.chunks_exact(8).map(number).collect())
+    fn read(&mut self, device: &wgpu::Device) -> Result<Vec<u64>, Error> {
+        let Some(read_back) = self.read_back.take() else { return Ok(Vec::new()) };
+        let bytes = read_back.wait(device)?;
+        Ok(bytes.as_chunks().0.iter().map(|&number| u64::from_le_bytes(number)).collect())
     }
 }

@@ -1,6 +1,6 @@
 //! Choosing an adapter and opening a device.
 
-use shadowgraph_core::device_is_lost;
+use shadowgraph_core::{device_is_lost, with_error_scopes};
 
 use crate::error::Error;
 use crate::options::adapter::AdapterChoice;
@@ -51,6 +51,7 @@ impl Gpu {
     /// # Errors
     /// [`Error::NoAdapter`] with the available adapters and what to install; [`Error::NoDevice`] if the driver does not create a
     /// device.
+    #[cfg(not(target_arch = "wasm32"))]
     pub fn open(choice: &AdapterChoice) -> Result<Self, Error> {
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
             backends: wgpu::Backends::PRIMARY,
@@ -64,6 +65,7 @@ impl Gpu {
     ///
     /// # Errors
     /// As [`open`](Self::open), for the adapters that can.
+    #[cfg(not(target_arch = "wasm32"))]
     pub fn for_surface(
         instance: &wgpu::Instance,
         surface: &wgpu::Surface<'_>,
@@ -79,10 +81,12 @@ impl Gpu {
     ///
     /// # Errors
     /// None in practice: the noop adapter is always available.
+    #[cfg(not(target_arch = "wasm32"))]
     pub fn noop() -> Result<Self, Error> {
         Self::from_adapter(&Self::noop_adapter()?)
     }
 
+    #[cfg(not(target_arch = "wasm32"))]
     pub(crate) fn noop_adapter() -> Result<wgpu::Adapter, Error> {
         let noop = wgpu::NoopBackendOptions { enable: true, ..Default::default() };
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
@@ -100,7 +104,16 @@ impl Gpu {
     ///
     /// # Errors
     /// [`Error::NoDevice`] if the driver does not create a device.
+    #[cfg(not(target_arch = "wasm32"))]
     pub fn from_adapter(adapter: &wgpu::Adapter) -> Result<Self, Error> {
+        pollster::block_on(Self::request(adapter))
+    }
+
+    /// Opens a device like `from_adapter`, without blocking: in browsers the only way.
+    ///
+    /// # Errors
+    /// [`Error::NoDevice`] if the driver does not create a device.
+    pub async fn request(adapter: &wgpu::Adapter) -> Result<Self, Error> {
         let info = adapter.get_info();
         let (has, default) = (adapter.limits(), wgpu::Limits::default());
         let limits = wgpu::Limits {
@@ -108,14 +121,16 @@ impl Gpu {
             max_storage_buffer_binding_size: has.max_storage_buffer_binding_size,
             ..default.using_resolution(has)
         };
-        let device = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
+        let descriptor = wgpu::DeviceDescriptor {
             label: Some("shadowgraph"),
             required_features: adapter.features() & optional_features(&info),
             required_limits: limits,
             memory_hints: memory_hints(&info),
             ..Default::default()
-        }));
-        let (device, queue) = device
+        };
+        let (device, queue) = adapter
+            .request_device(&descriptor)
+            .await
             .map_err(|error| Error::NoDevice { adapter: info.name.clone(), reason: error.to_string() })?;
         Ok(Self { device, queue, adapter: info })
     }
@@ -129,12 +144,9 @@ impl Gpu {
     /// [`DeviceLost`](shadowgraph_core::Error::DeviceLost).
     pub fn checked<T, E: From<Error>>(&self, work: impl FnOnce() -> Result<T, E>) -> Result<T, E> {
         use wgpu::ErrorFilter::{Internal, OutOfMemory, Validation};
-        let scopes = [Internal, OutOfMemory, Validation].map(|filter| self.device.push_error_scope(filter));
-        let done = work();
-        // All scopes end, in reverse order.
-        let errors: Vec<_> =
-            scopes.into_iter().rev().filter_map(|scope| pollster::block_on(scope.pop())).collect();
-        match (errors.first(), done) {
+        let filters = [Internal, OutOfMemory, Validation];
+        let (done, error) = with_error_scopes(&self.device, &filters, work);
+        match (error, done) {
             (None, Ok(done)) => Ok(done),
             _ if device_is_lost(&self.device) => Err(Error::from(shadowgraph_core::Error::DeviceLost).into()),
             (Some(error), _) => Err(Error::Gpu(one_line(&error.to_string())).into()),

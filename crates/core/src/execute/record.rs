@@ -12,7 +12,7 @@ use crate::handle::{PassId, ResourceId};
 use crate::pool::{Pool, ResolvedPlan};
 use crate::timer::Timer;
 use std::ops::Range;
-use std::time::Instant;
+use web_time::Instant;
 
 /// A frame whose physical objects are acquired and whose uploads are staged.
 pub(super) struct Prepared {
@@ -63,7 +63,7 @@ fn record_plan(
     let read_backs = recording.read_backs(&compiled.frame.work.read_backs, encoder)?;
     compiled.frame.work.bodies = bodies;
     if let Some(timer) = timer {
-        timer.end(encoder);
+        timer.end(device, encoder)?;
     }
     Ok(prepared.finish(compiled, pool, read_backs))
 }

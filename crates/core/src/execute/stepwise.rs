@@ -4,6 +4,7 @@ use super::Executed;
 use super::record::prepare;
 use crate::compiled::Compiled;
 use crate::context::{Bodies, Recording};
+use crate::device::with_error_scopes;
 use crate::error::Error;
 use crate::graph::Graph;
 use crate::handle::PassId;
@@ -75,13 +76,15 @@ pub(super) fn record_steps(
     let recording = prepared.recording(&compiled, pool, device, None);
     pass_on(first.finish());
     for (index, step) in compiled.plan.steps().enumerate() {
-        let scope = checks.then(|| device.push_error_scope(wgpu::ErrorFilter::Validation));
-        let mut encoder = encoder();
-        let recorded = recording.steps(index..index + 1, &mut encoder, Bodies::OfFrame(&mut bodies));
-        let buffer = encoder.finish();
-        let caught = scope.and_then(|scope| pollster::block_on(scope.pop()));
+        let record = || {
+            let mut encoder = encoder();
+            let recorded = recording.steps(index..index + 1, &mut encoder, Bodies::OfFrame(&mut bodies));
+            (recorded, encoder.finish())
+        };
+        let filters: &[_] = if checks { &[wgpu::ErrorFilter::Validation] } else { &[] };
+        let ((recorded, buffer), error) = with_error_scopes(device, filters, record);
         recorded?;
-        if let Some(error) = caught {
+        if let Some(error) = error {
             return Err(in_passes(&recording, step.passes, &error));
         }
         pass_on(buffer);

@@ -22,6 +22,8 @@ pub(super) fn record(
     device: &wgpu::Device,
     threads: usize,
 ) -> Result<(Executed, Vec<wgpu::CommandBuffer>), Error> {
+    // Threads of browsers need another build of the standard library.
+    let threads = if cfg!(target_arch = "wasm32") { 1 } else { threads };
     let label = Some("frame");
     let encoder = || device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label });
     let mut bodies = std::mem::take(&mut compiled.frame.work.bodies);

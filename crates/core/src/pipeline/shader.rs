@@ -1,7 +1,7 @@
 //! Shaders of fullscreen and compute passes.
 
 use super::validation::describe;
-use crate::device::poll_once;
+use crate::device::with_error_scopes;
 use crate::error::Error;
 use rustc_hash::FxHasher;
 use std::borrow::Cow;
@@ -67,12 +67,10 @@ impl ProgrammableStage {
         prefix: &str,
         create: impl FnOnce() -> T,
     ) -> Result<T, Error> {
-        let validation = device.push_error_scope(wgpu::ErrorFilter::Validation);
-        // For what only the driver rejects.
-        let internal = device.push_error_scope(wgpu::ErrorFilter::Internal);
-        let created = create();
-        let errors = [poll_once(internal.pop()), poll_once(validation.pop())];
-        match errors.into_iter().flatten().next() {
+        // Internal errors are those that only the driver finds.
+        let filters = [wgpu::ErrorFilter::Validation, wgpu::ErrorFilter::Internal];
+        let (created, error) = with_error_scopes(device, &filters, create);
+        match error {
             None => Ok(created),
             Some(error) => Err(self.error(format!("{prefix}{}", describe(&error)))),
         }

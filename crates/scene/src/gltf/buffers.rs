@@ -43,7 +43,7 @@ impl<'a> Buffers<'a> {
     pub(super) fn read(
         document: &'a Document,
         bin: Option<&'a [u8]>,
-        files: &Files,
+        files: &Files<'_>,
     ) -> Result<Self, ImportError> {
         let mut bytes = Vec::with_capacity(document.buffers.len());
         for (i, buffer) in document.buffers.iter().enumerate() {

@@ -7,16 +7,24 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::uri;
 
-/// Reads the files that a scene refers to, all of them inside the scene's directory.
+/// The place of the files that a scene refers to.
 #[derive(Debug)]
-pub(super) struct Files {
+enum Place<'f> {
     /// The scene's directory, canonical.
-    directory: PathBuf,
+    Directory(PathBuf),
+    /// Paths relative to the scene, with `/`, and contents.
+    Memory(&'f [(String, Vec<u8>)]),
+}
+
+/// Reads the files that a scene refers to, all of them inside the scene's directory or in memory.
+#[derive(Debug)]
+pub(super) struct Files<'f> {
+    place: Place<'f>,
     /// The number of bytes that may still be read, over all files.
     budget_bytes: AtomicU64,
 }
 
-impl Files {
+impl<'f> Files<'f> {
     /// Prepares to read files from the directory of `scene`, at most `budget_bytes` in total.
     ///
     /// # Errors
@@ -26,10 +34,16 @@ impl Files {
             Some(directory) if !directory.as_os_str().is_empty() => directory,
             _ => Path::new("."),
         };
-        Ok(Self { directory: directory.canonicalize()?, budget_bytes: AtomicU64::new(budget_bytes) })
+        let place = Place::Directory(directory.canonicalize()?);
+        Ok(Self { place, budget_bytes: AtomicU64::new(budget_bytes) })
     }
 
-    /// Reads the resource of a URI: its data, or a file in the scene's directory.
+    /// Prepares to read files in memory.
+    pub(super) fn in_memory(files: &'f [(String, Vec<u8>)]) -> Self {
+        Self { place: Place::Memory(files), budget_bytes: AtomicU64::new(u64::MAX) }
+    }
+
+    /// Reads the resource of a URI: its data, or a file.
     ///
     /// # Errors
     /// The message says why the URI is rejected or cannot be read.
@@ -37,10 +51,19 @@ impl Files {
         if let Some(data) = uri::data(uri) {
             return data;
         }
-        let path = self.directory.join(uri::relative_path(uri)?);
+        let path = uri::relative_path(uri)?;
+        let directory = match &self.place {
+            Place::Directory(directory) => directory,
+            Place::Memory(files) => {
+                let found = files.iter().find(|(name, _)| Path::new(name) == path);
+                let missing = || format!("{} is not among the files", uri::quote(uri));
+                return found.map(|(_, bytes)| bytes.clone()).ok_or_else(missing);
+            }
+        };
+        let path = directory.join(path);
         let fail = |error: std::io::Error| format!("{} cannot be read: {error}", uri::quote(uri));
         let real = path.canonicalize().map_err(fail)?;
-        if !real.starts_with(&self.directory) {
+        if !real.starts_with(directory) {
             return Err(format!(
                 "{} is rejected: it is a link out of the scene's directory",
                 uri::quote(uri)
@@ -87,6 +110,15 @@ mod tests {
         assert_eq!(files.read("sub/a%20b.bin").unwrap(), b"abc");
         let reason = files.read("sub/a%20b.bin").unwrap_err();
         assert!(reason.contains("more than 1 bytes"), "the budget counts all files: {reason}");
+    }
+
+    #[test]
+    fn files_in_memory_are_found_by_their_path() {
+        let given = [("sub/a b.bin".to_owned(), b"abc".to_vec())];
+        let files = Files::in_memory(&given);
+        assert_eq!(files.read("./sub/a%20b.bin").unwrap(), b"abc");
+        assert!(files.read("a%20b.bin").unwrap_err().contains("not among the files"));
+        assert!(files.read("../a").is_err());
     }
 
     #[test]

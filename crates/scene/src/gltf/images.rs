@@ -1,4 +1,4 @@
-//! Decoding of PNG, JPEG, WebP and KTX2 images on several threads.
+//! Decoding of PNG, JPEG, WebP and KTX2 images, on several threads where there are.
 
 use std::borrow::Cow;
 use std::io::Cursor;
@@ -25,13 +25,26 @@ const MAX_DECODE_BYTES: u64 = 1 << 30;
 /// that is missing, corrupt or too large.
 pub(super) fn read(
     buffers: &Buffers<'_>,
-    files: &Files,
+    files: &Files<'_>,
     wanted: &[usize],
     progress: &mut dyn FnMut(f32),
 ) -> Vec<Result<Image, ImportError>> {
     let decoder = Decoder { buffers, files, budget_bytes: AtomicU64::new(MAX_IMAGE_BYTES) };
-    let next = AtomicUsize::new(0);
     let threads = thread::available_parallelism().map_or(1, usize::from).min(8).min(wanted.len());
+    let mut done = 0;
+    let mut report = || {
+        done += 1;
+        progress(done as f32 / wanted.len() as f32);
+    };
+    if threads <= 1 {
+        let decode = |&index| {
+            let result = decoder.image(index);
+            report();
+            result
+        };
+        return wanted.iter().map(decode).collect();
+    }
+    let next = AtomicUsize::new(0);
     let mut results: Vec<Option<Result<Image, ImportError>>> = wanted.iter().map(|_| None).collect();
     thread::scope(|scope| {
         let (sender, receiver) = mpsc::channel();
@@ -48,8 +61,8 @@ pub(super) fn read(
             });
         }
         drop(sender);
-        for (done, (slot, result)) in receiver.into_iter().enumerate() {
-            progress((done + 1) as f32 / wanted.len() as f32);
+        for (slot, result) in receiver {
+            report();
             if let Some(entry) = results.get_mut(slot) {
                 *entry = Some(result);
             }
@@ -60,7 +73,7 @@ pub(super) fn read(
 
 struct Decoder<'a> {
     buffers: &'a Buffers<'a>,
-    files: &'a Files,
+    files: &'a Files<'a>,
     /// The number of bytes of pixels that may still be decoded.
     budget_bytes: AtomicU64,
 }

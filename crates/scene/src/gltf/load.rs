@@ -71,16 +71,39 @@ pub fn load_with(
     let files =
         Files::in_directory_of(path, MAX_BYTES.saturating_sub(bytes.len() as u64)).map_err(unreadable)?;
     progress(Progress { stage: "reading", fraction: 1.0 });
-    import(&bytes, &files, options, progress).map_err(|ImportError { location, reason }| Error::Invalid {
-        file: path.to_owned(),
-        location,
-        reason,
-    })
+    import(&bytes, &files, options, progress).map_err(|error| invalid(path, error))
+}
+
+/// Loads a glTF or GLB file in memory, such as one that was dropped on a page. `name` is for errors; `files` are those that
+/// it may refer to: their paths relative to it, with `/`, and their contents.
+///
+/// # Errors
+/// The same as [`load_with`].
+///
+/// ```
+/// use shadowgraph_scene::gltf::{LoadOptions, load_bytes};
+/// let text = br#"{"asset": {"version": "2.0"}, "scenes": [{}]}"#;
+/// let scene = load_bytes("empty.gltf", text, &[], &LoadOptions::default(), &mut |_| {})?;
+/// assert!(scene.bounds().is_empty());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn load_bytes(
+    name: &str,
+    bytes: &[u8],
+    files: &[(String, Vec<u8>)],
+    options: &LoadOptions,
+    progress: &mut dyn FnMut(Progress),
+) -> Result<Scene, Error> {
+    import(bytes, &Files::in_memory(files), options, progress).map_err(|error| invalid(Path::new(name), error))
+}
+
+fn invalid(file: &Path, ImportError { location, reason }: ImportError) -> Error {
+    Error::Invalid { file: file.to_owned(), location, reason }
 }
 
 fn import(
     bytes: &[u8],
-    files: &Files,
+    files: &Files<'_>,
     options: &LoadOptions,
     progress: &mut dyn FnMut(Progress),
 ) -> Result<Scene, ImportError> {

@@ -49,6 +49,14 @@ pub struct PendingCounts {
 }
 
 impl PendingCounts {
+    /// Returns whether the numbers of the submitted frame have arrived, so that [`wait`](Self::wait) does not wait. In
+    /// browsers, which cannot wait, ask this first.
+    pub fn is_ready(&self) -> bool {
+        let culled = self.culled.iter().map(|(_, bytes)| bytes);
+        let mut all = culled.chain(self.shadows.iter().map(|(_, bytes)| bytes));
+        all.all(|bytes| bytes.as_ref().is_none_or(ReadBack::is_ready))
+    }
+
     /// Waits for the submitted frame, and returns the numbers.
     ///
     /// # Errors

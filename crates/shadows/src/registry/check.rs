@@ -1,5 +1,6 @@
 //! Checks of a technique without a GPU, as it is registered.
 
+use shadowgraph_core::with_error_scopes;
 use shadowgraph_shaders::{compose, naga};
 
 use super::{TechniqueContext, TechniqueKind};
@@ -100,11 +101,9 @@ fn check_bindings(
 
 /// Runs `work` and returns the device's validation error, which would end the program otherwise.
 fn caught<T>(device: &wgpu::Device, work: impl FnOnce() -> T) -> Result<T, String> {
-    let scope = device.push_error_scope(wgpu::ErrorFilter::Validation);
-    let done = work();
-    match pollster::block_on(scope.pop()) {
-        None => Ok(done),
-        Some(error) => Err(one_line(error)),
+    match with_error_scopes(device, &[wgpu::ErrorFilter::Validation], work) {
+        (done, None) => Ok(done),
+        (_, Some(error)) => Err(one_line(error)),
     }
 }
 
