@@ -68,6 +68,8 @@ mod plan;
 #[cfg(feature = "gpu")]
 mod pool;
 #[cfg(feature = "gpu")]
+mod read_back;
+#[cfg(feature = "gpu")]
 mod shader_pass;
 mod subresource;
 mod suggest;
@@ -99,8 +101,7 @@ pub use dump::{JSON_SCHEMA, describe};
 pub use error::Error;
 #[cfg(feature = "gpu")]
 pub use execute::{
-    Executed, FailedFrame, FrameCapture, PendingCapture, PendingTexture, PendingValues, ReadBack,
-    ReadBackRequest,
+    Executed, FailedFrame, FrameCapture, PendingCapture, PendingTexture, PendingValues, ReadBackRequest,
 };
 pub use frame::{Frame, History};
 pub use graph::{Graph, PlanCounts};
@@ -123,6 +124,8 @@ pub use plan::{
 };
 #[cfg(feature = "gpu")]
 pub use pool::PoolLimits;
+#[cfg(feature = "gpu")]
+pub use read_back::ReadBack;
 #[cfg(feature = "gpu")]
 pub use shader_pass::UniformSource;
 pub use subresource::{Aspect, Rect, Subresource};

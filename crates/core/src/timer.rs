@@ -2,9 +2,9 @@
 
 use crate::declaration::PassKind;
 use crate::error::Error;
-use crate::execute::ReadBack;
 use crate::handle::PassId;
 use crate::plan::Plan;
+use crate::read_back::ReadBack;
 use crate::times::PassTime;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};

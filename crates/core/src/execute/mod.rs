@@ -6,9 +6,9 @@ mod checked;
 mod copies;
 mod import;
 mod poison;
-mod read_back;
 mod record;
 mod render;
+mod request;
 mod shader_pass;
 mod stepwise;
 mod threads;
@@ -21,7 +21,7 @@ mod tests;
 
 pub use capture::{FrameCapture, PendingCapture};
 pub use checked::FailedFrame;
-pub use read_back::{ReadBack, ReadBackRequest};
+pub use request::ReadBackRequest;
 pub use values::PendingValues;
 pub use watch::PendingTexture;
 
@@ -31,6 +31,7 @@ use crate::graph::Graph;
 use crate::handle::{BufferExport, ResourceId, TextureExport, Version};
 use crate::plan::Plan;
 use crate::pool::PhysicalResource;
+use crate::read_back::ReadBack;
 use crate::timer::Timer;
 use std::sync::Arc;
 

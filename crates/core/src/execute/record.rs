@@ -2,7 +2,6 @@
 
 use super::Executed;
 use super::copies::{record_copies, stage_uploads};
-use super::read_back::ReadBack;
 use super::shader_pass;
 use crate::compiled::Compiled;
 use crate::context::{Bodies, Body, ComputeContext, EncoderContext, Recording, Resources, Uploads};
@@ -10,6 +9,7 @@ use crate::declaration::PassKind;
 use crate::error::Error;
 use crate::handle::{PassId, ResourceId};
 use crate::pool::{Pool, ResolvedPlan};
+use crate::read_back::ReadBack;
 use crate::timer::Timer;
 use std::ops::Range;
 use web_time::Instant;

@@ -1,7 +1,6 @@
 //! Checks of the values that passes write, after each pass.
 
 use super::Executed;
-use super::read_back::ReadBack;
 use super::record::record;
 use crate::compile::keeping;
 use crate::compiled::Compiled;
@@ -13,6 +12,7 @@ use crate::handle::{PassId, ResourceId};
 use crate::internal::{COUNT_WORDS, ImageKind, ImagePart, TEXEL_WORDS, ValueChecks, ValueStep};
 use crate::plan::Plan;
 use crate::pool::Pool;
+use crate::read_back::ReadBack;
 use crate::subresource::Aspect;
 use crate::timer::Timer;
 use crate::values::{BadValues, Texel, ValueCheck, ValueReport};

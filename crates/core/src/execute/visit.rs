@@ -1,7 +1,6 @@
 //! Recording pass by pass, with all contents that passes write and that a frame begins with.
 
 use super::Executed;
-use super::read_back::{ReadBack, TexturePart};
 use super::record::prepare;
 use crate::capture::Contained;
 use crate::compile::keeping;
@@ -12,6 +11,7 @@ use crate::desc::{ResourceDesc, TextureDesc};
 use crate::error::Error;
 use crate::graph::Graph;
 use crate::handle::{PassId, ResourceId};
+use crate::read_back::{ReadBack, TexturePart};
 use crate::subresource::{Aspect, Rect, Subresource};
 use std::ops::ControlFlow;
 use std::sync::Arc;

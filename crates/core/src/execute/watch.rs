@@ -2,7 +2,6 @@
 
 use super::Executed;
 use super::capture::{PendingSnapshot, aspect};
-use super::read_back::TexturePart;
 use super::record::record;
 use crate::capture::TextureSnapshot;
 use crate::compile::watching;
@@ -14,6 +13,7 @@ use crate::error::Error;
 use crate::handle::PassId;
 use crate::plan::Plan;
 use crate::pool::Pool;
+use crate::read_back::TexturePart;
 use crate::subresource::Subresource;
 use crate::timer::Timer;
 use crate::watch::{WatchedPlan, WatchedTexture};

@@ -4,7 +4,7 @@
 use super::staging::{Chunk, Staging, aligned_range};
 use super::uniforms::UniformBuffer;
 use crate::Error;
-use crate::execute::ReadBack;
+use crate::read_back::ReadBack;
 use crate::test_device::{block_on, drawing, noop, valid};
 
 const KIB: u64 = 1024;

@@ -7,9 +7,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::uri;
 
-/// The place of the files that a scene refers to.
+/// The location of the files that a scene refers to.
 #[derive(Debug)]
-enum Place<'f> {
+enum Location<'f> {
     /// The scene's directory, canonical.
     Directory(PathBuf),
     /// Paths relative to the scene, with `/`, and contents.
@@ -19,7 +19,7 @@ enum Place<'f> {
 /// Reads the files that a scene refers to, all of them inside the scene's directory or in memory.
 #[derive(Debug)]
 pub(super) struct Files<'f> {
-    place: Place<'f>,
+    location: Location<'f>,
     /// The number of bytes that may still be read, over all files.
     budget_bytes: AtomicU64,
 }
@@ -34,13 +34,13 @@ impl<'f> Files<'f> {
             Some(directory) if !directory.as_os_str().is_empty() => directory,
             _ => Path::new("."),
         };
-        let place = Place::Directory(directory.canonicalize()?);
-        Ok(Self { place, budget_bytes: AtomicU64::new(budget_bytes) })
+        let location = Location::Directory(directory.canonicalize()?);
+        Ok(Self { location, budget_bytes: AtomicU64::new(budget_bytes) })
     }
 
     /// Prepares to read files in memory.
     pub(super) fn in_memory(files: &'f [(String, Vec<u8>)]) -> Self {
-        Self { place: Place::Memory(files), budget_bytes: AtomicU64::new(u64::MAX) }
+        Self { location: Location::Memory(files), budget_bytes: AtomicU64::new(u64::MAX) }
     }
 
     /// Reads the resource of a URI: its data, or a file.
@@ -52,9 +52,9 @@ impl<'f> Files<'f> {
             return data;
         }
         let path = uri::relative_path(uri)?;
-        let directory = match &self.place {
-            Place::Directory(directory) => directory,
-            Place::Memory(files) => {
+        let directory = match &self.location {
+            Location::Directory(directory) => directory,
+            Location::Memory(files) => {
                 let found = files.iter().find(|(name, _)| Path::new(name) == path);
                 let missing = || format!("{} is not among the files", uri::quote(uri));
                 return found.map(|(_, bytes)| bytes.clone()).ok_or_else(missing);

@@ -94,7 +94,8 @@ pub fn load_bytes(
     options: &LoadOptions,
     progress: &mut dyn FnMut(Progress),
 ) -> Result<Scene, Error> {
-    import(bytes, &Files::in_memory(files), options, progress).map_err(|error| invalid(Path::new(name), error))
+    import(bytes, &Files::in_memory(files), options, progress)
+        .map_err(|error| invalid(Path::new(name), error))
 }
 
 fn invalid(file: &Path, ImportError { location, reason }: ImportError) -> Error {

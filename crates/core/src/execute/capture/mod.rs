@@ -1,7 +1,6 @@
 //! Snapshots of what passes write, taken after each pass.
 
 use super::Executed;
-use super::read_back::{ReadBack, TexturePart};
 use super::record::record;
 use crate::capture::{SnapshotTile, TextureSnapshot};
 use crate::compile::keeping;
@@ -13,6 +12,7 @@ use crate::error::Error;
 use crate::graph::Graph;
 use crate::handle::{PassId, ResourceId};
 use crate::plan::Plan;
+use crate::read_back::{ReadBack, TexturePart};
 use crate::subresource::{Aspect, Subresource};
 use crate::texels;
 use std::ops::Range;

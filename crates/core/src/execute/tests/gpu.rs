@@ -1,7 +1,7 @@
 //! A device with helpers for tests.
 
 use crate::execute::ReadBack;
-use crate::execute::read_back::TexturePart;
+use crate::read_back::TexturePart;
 use crate::test_device::{drawing, noop, valid};
 use crate::{Aspect, Bind, Error, Executed, Format, Frame, Graph, RenderContext, TextureDesc};
 

@@ -42,7 +42,7 @@ impl TexturePart {
 }
 
 /// A copy of whole layers into a buffer.
-pub(super) struct TextureCopy {
+pub(crate) struct TextureCopy {
     part: TexturePart,
     /// Size in texels, rounded up to whole blocks.
     size: wgpu::Extent3d,
@@ -96,7 +96,7 @@ impl TextureCopy {
 }
 
 /// Checks that the part can be copied, and returns the layout of the copy.
-pub(super) fn texture(name: &str, desc: &TextureDesc, part: &TexturePart) -> Result<TextureCopy, Error> {
+pub(crate) fn texture(name: &str, desc: &TextureDesc, part: &TexturePart) -> Result<TextureCopy, Error> {
     let error = |problem: String| Error::ReadBack { resource: name.to_owned(), problem };
     if desc.samples > 1 {
         return Err(error(format!(
@@ -116,7 +116,7 @@ pub(super) fn texture(name: &str, desc: &TextureDesc, part: &TexturePart) -> Res
 }
 
 /// Checks that the range can be copied, and widens it to multiples of 4 bytes, as copies require.
-pub(super) fn buffer(name: &str, buffer: &wgpu::Buffer, range: &Range<u64>) -> Result<Range<u64>, Error> {
+pub(crate) fn buffer(name: &str, buffer: &wgpu::Buffer, range: &Range<u64>) -> Result<Range<u64>, Error> {
     let error = |problem: String| Error::ReadBack { resource: name.to_owned(), problem };
     if !buffer.usage().contains(wgpu::BufferUsages::COPY_SRC) {
         return Err(error(missing_copy_src()));
@@ -138,11 +138,11 @@ pub(super) fn buffer(name: &str, buffer: &wgpu::Buffer, range: &Range<u64>) -> R
 }
 
 /// Describes the problem with a requested part.
-pub(super) fn describe_request(part: &Subresource, problem: &str) -> String {
+pub(crate) fn describe_request(part: &Subresource, problem: &str) -> String {
     format!("{problem} (requested: {part})")
 }
 
-pub(super) fn missing_copy_src() -> String {
+pub(crate) fn missing_copy_src() -> String {
     "it was created without COPY_SRC: add that usage where you create it".into()
 }
 

@@ -1,14 +1,12 @@
 //! Reading results back to the CPU.
 
 mod completion;
-mod request;
-mod source;
+pub(crate) mod source;
 
 #[cfg(test)]
 mod tests;
 
-pub use request::ReadBackRequest;
-pub(super) use source::TexturePart;
+pub(crate) use source::TexturePart;
 
 use crate::desc::TextureDesc;
 use crate::device::{create_checked, device_is_lost};

@@ -3,14 +3,14 @@
 #[cfg(test)]
 mod tests;
 
-use super::ReadBack;
-use super::source::{self, TexturePart};
 use crate::context::Recording;
 use crate::declaration::Origin;
 use crate::desc::{ResourceDesc, TextureDesc};
 use crate::error::Error;
 use crate::frame::{Frame, ReadBackDecl};
 use crate::handle::{Buffer, ResourceId, Texture, Version};
+use crate::read_back::source;
+use crate::read_back::{ReadBack, TexturePart};
 use crate::subresource::Subresource;
 use wgpu_types::{BufferUsages, TextureUsages};
 
