@@ -21,7 +21,7 @@ fn explain_shadow(light: u32, receiver: Receiver) -> array<f32, FACTS> {
         facts[0] = NOT_COVERED;
         return facts;
     }
-    let half = half_width(shadow, soft, found.page.level);
+    let half = half_width(shadow, soft, lookup, found);
     facts = lookup_facts(view_of(found), shadow, receiver, lookup, half, 1.0, strength_at(shadow, receiver));
     facts[LOOKUP_FACTS] = f32(found.page.level);
     facts[LOOKUP_FACTS + 1u] = soft.level;
