@@ -35,7 +35,8 @@ fn half_width(light: ShadowLight, soft: Softness, lookup: Lookup, found: Found) 
     if blockers == 0.0 {
         return light.filter_half;
     }
-    return clamp(TENT_OF_DISC * ldexp(sum / blockers, -i32(found.page.level)), NARROWEST_HALF, light.filter_half);
+    let half = TENT_OF_DISC * ldexp(sum / blockers, -i32(found.page.level));
+    return min(max(half, NARROWEST_HALF), light.filter_half);
 }
 
 // The visibility near a contact. The filter is wider than the penumbra of a near blocker, and would light what is in its shadow: thin casters

@@ -125,6 +125,11 @@ impl ReadBack {
     /// Those of the future; [`Error::DeviceLost`] if that is why the bytes do not arrive; and an error when nothing is
     /// submitted within a second after the GPU has run out of work.
     pub fn wait(self, device: &wgpu::Device) -> Result<Vec<u8>, Error> {
+        let lost = |error| if device_is_lost(device) { Error::DeviceLost } else { error };
+        // Browsers can do nothing but this.
+        if let Some(outcome) = self.completion.outcome() {
+            return self.bytes(outcome).map_err(lost);
+        }
         let (steps, step) = WAIT_STEPS;
         for _ in 0..steps {
             let polled = device.poll(wgpu::PollType::wait_indefinitely());
@@ -132,7 +137,6 @@ impl ReadBack {
             // No outcome means that nothing was submitted, or that another thread has taken the callback but not run it
             // yet, or has submitted but not requested the mapping yet. The last two take very little time.
             if let Some(outcome) = self.completion.outcome_within(step) {
-                let lost = |error| if device_is_lost(device) { Error::DeviceLost } else { error };
                 return self.bytes(outcome).map_err(lost);
             }
         }
