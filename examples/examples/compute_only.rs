@@ -69,7 +69,8 @@ impl Example for Life {
         let mut now = frame.upload_buffer("first", first);
         for generation in 1..=GENERATIONS {
             let bytes = u64::from(SIDE * SIDE) * 4;
-            let mut next = frame.create_buffer(format_args!("generation {generation}"), BufferDesc { bytes });
+            let mut next =
+                frame.create_buffer(format_args!("generation {generation}"), BufferDesc::new(bytes));
             let pass = frame.compute(format_args!("live {generation}"), &self.live).storage(&now);
             pass.storage_mut(&mut next, Contents::Overwrite).dispatch([SIDE / 8, SIDE / 8, 1]);
             now = next;

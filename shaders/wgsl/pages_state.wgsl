@@ -42,9 +42,13 @@ struct PagesFrame {
 struct ListedPage {
     page: Page,
     entry: u32,
-    // 1: moving casters are drawn into it.
-    has_movers: u32,
+    flags: u32,
 }
+
+// Moving casters are drawn into the page.
+const HAS_MOVERS: u32 = 1u;
+// Of a page that is missing: it is a composite one.
+const IS_COMPOSITE: u32 = 2u;
 
 // The arguments of the draw that stores pages, and counts.
 struct Counters {

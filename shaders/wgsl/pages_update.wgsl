@@ -16,7 +16,7 @@
 #import shadowgraph::shadows::page_depths::PageDepths
 #import shadowgraph::layer_views::{CASTERS_MOVING, CASTERS_STATIC, LayerViews}
 #import shadowgraph::pages_state::{
-    ListedPage, counters, level_of, levels, lists, marks, pages_frame, projections, frame_stamp, words_of,
+    HAS_MOVERS, IS_COMPOSITE, ListedPage, counters, level_of, levels, lists, marks, pages_frame, projections, frame_stamp, words_of,
 }
 
 @group(2) @binding(0) var<storage, read_write> page_table: PageTable;
@@ -29,8 +29,6 @@ const COARSENINGS: u32 = 32u;
 const COARSER_LEVELS: u32 = 8u;
 // The age of a free page; those of others are less.
 const FREE: u32 = 255u;
-const MAX_LEVELS: u32 = 16u;
-const BEGINS: u32 = 32u;
 
 // Lists a page that is needed at some coarsenings, a bit for each.
 fn need(page: Page, bits: u32) {
@@ -43,8 +41,8 @@ fn need(page: Page, bits: u32) {
     if atomicOr(&marks[words_of(entry) + 1u], bits) == 0u {
         let index = atomicAdd(&counters.listed, 1u);
         if index < pages_frame.need_capacity {
-            let has_movers = u32(any_touches(page, pages_frame.moved_end, pages_frame.movers_end));
-            lists[pages_frame.request_capacity + index] = ListedPage(page, entry, has_movers);
+            let has_movers = any_touches(page, pages_frame.moved_end, pages_frame.movers_end);
+            lists[pages_frame.request_capacity + index] = ListedPage(page, entry, select(0u, HAS_MOVERS, has_movers));
         } else {
             atomicStore(&marks[words_of(entry) + 1u], 0u);
         }
@@ -146,6 +144,8 @@ fn cs_list(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) gr
         let entry = lists[index].entry;
         let quarters = atomicExchange(&marks[words_of(entry)], 0u);
         var page = lists[index].page;
+        // Missing pages are listed here later, and nothing else is to be left.
+        lists[index] = ListedPage();
         let last = projections[page.projection].level_count - 1u;
         let soft_level = projections[page.projection].soft_level;
         let coarsest = max(page.level + COARSER_LEVELS, soft_level);
@@ -172,8 +172,9 @@ fn cs_list(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) gr
 
 var<workgroup> counts: array<atomic<u32>, 256>;
 var<workgroup> sums: array<u32, 512>;
-// The first rank of the missing pages of a kind and level.
-var<workgroup> begins: array<atomic<u32>, BEGINS>;
+// Physical pages that are not resident, and those of them that find a place.
+var<workgroup> missing_count: atomic<u32>;
+var<workgroup> missing_static: atomic<u32>;
 var<workgroup> missing: u32;
 var<workgroup> oldest: u32;
 var<workgroup> older: u32;
@@ -185,6 +186,20 @@ fn listed_count() -> u32 {
 
 fn listed(index: u32) -> ListedPage {
     return lists[pages_frame.request_capacity + index];
+}
+
+fn has_movers(page: ListedPage) -> bool {
+    return (page.flags & HAS_MOVERS) != 0u;
+}
+
+// The kind of the physical page that lookups read.
+fn shown_kind(page: ListedPage) -> u32 {
+    return select(STATIC, COMPOSITE, has_movers(page));
+}
+
+// The kind of a missing page.
+fn kind_of(page: ListedPage) -> u32 {
+    return select(STATIC, COMPOSITE, (page.flags & IS_COMPOSITE) != 0u);
 }
 
 fn age_of(index: u32) -> u32 {
@@ -205,19 +220,26 @@ fn choose_coarsening(local: u32) {
     workgroupBarrier();
     for (var index = local; index < listed_count(); index += THREADS) {
         let page = listed(index);
-        var bits = atomicLoad(&marks[words_of(page.entry) + 1u]);
-        while bits != 0u {
-            atomicAdd(&counts[firstTrailingBit(bits)], 1u + page.has_movers);
-            bits &= bits - 1u;
+        let bits = atomicLoad(&marks[words_of(page.entry) + 1u]);
+        let places = 1u + u32(has_movers(page));
+        // Runs of coarsenings are counted where they begin and end.
+        let before = bits << 1u;
+        for (var begins = bits & ~before; begins != 0u; begins &= begins - 1u) {
+            atomicAdd(&counts[firstTrailingBit(begins)], places);
+        }
+        for (var ends = before & ~bits; ends != 0u; ends &= ends - 1u) {
+            atomicSub(&counts[firstTrailingBit(ends)], places);
         }
     }
     workgroupBarrier();
     if local == 0u {
+        var needed = atomicLoad(&counts[0]);
         coarsening = 0u;
-        while coarsening < COARSENINGS - 1u && atomicLoad(&counts[coarsening]) > pages_frame.page_count {
+        while coarsening < COARSENINGS - 1u && needed > pages_frame.page_count {
             coarsening++;
+            needed += atomicLoad(&counts[coarsening]);
         }
-        counters.needed = atomicLoad(&counts[coarsening]);
+        counters.needed = needed;
         counters.coarsening = coarsening;
         page_table.coarsening = coarsening;
         page_table.stamp = frame_stamp();
@@ -227,15 +249,11 @@ fn choose_coarsening(local: u32) {
     workgroupBarrier();
 }
 
-// Where the missing pages of a kind and level begin: coarse levels come first, and static pages before composite ones.
-fn begin_of(kind: u32, level: u32) -> u32 {
-    return kind * MAX_LEVELS + MAX_LEVELS - 1u - level;
-}
-
-// Shows needed pages that are resident, and counts the others.
+// Shows needed pages that are resident, and lists the others in place of the requests.
 fn show_resident(local: u32) {
-    if local < BEGINS {
-        atomicStore(&begins[local], 0u);
+    if local == 0u {
+        atomicStore(&missing_count, 0u);
+        atomicStore(&missing_static, 0u);
     }
     workgroupBarrier();
     for (var index = local; index < listed_count(); index += THREADS) {
@@ -243,29 +261,68 @@ fn show_resident(local: u32) {
         if !is_needed(needed.entry) {
             continue;
         }
-        for (var kind = STATIC; kind <= needed.has_movers; kind++) {
+        let shown = shown_kind(needed);
+        for (var kind = STATIC; kind <= shown; kind++) {
             let place = resident(needed.entry, kind);
             if place == 0u {
-                atomicAdd(&begins[begin_of(kind, needed.page.level)], 1u);
+                let number = atomicAdd(&missing_count, 1u);
+                if number < pages_frame.request_capacity {
+                    let is_composite = select(0u, IS_COMPOSITE, kind == COMPOSITE);
+                    lists[number] = ListedPage(needed.page, needed.entry, needed.flags | is_composite);
+                }
+                atomicAdd(&missing_static, u32(kind == STATIC));
                 continue;
             }
             physical_pages[place - 1u].last_frame = pages_frame.frame;
-            if kind == needed.has_movers {
+            if kind == shown {
                 show(needed.entry, place - 1u, 0u);
             }
         }
     }
     storageBarrier();
     workgroupBarrier();
-    if local == 0u {
-        var sum = 0u;
-        for (var index = 0u; index < BEGINS; index++) {
-            let count = atomicLoad(&begins[index]);
-            atomicStore(&begins[index], sum);
-            sum += count;
+}
+
+// Whether a missing page comes before another: static pages before composite ones, and coarse levels first.
+fn comes_before(first: ListedPage, second: ListedPage) -> bool {
+    if kind_of(first) != kind_of(second) {
+        return kind_of(first) < kind_of(second);
+    }
+    if first.page.level != second.page.level {
+        return first.page.level > second.page.level;
+    }
+    return first.entry < second.entry;
+}
+
+// A step of a bitonic sort whose comparisons all have the same direction: nothing past the end takes part.
+fn exchange(local: u32, count: u32, mask: u32) {
+    for (var index = local; index < count; index += THREADS) {
+        let partner = index ^ mask;
+        if partner > index && partner < count && comes_before(lists[partner], lists[index]) {
+            let page = lists[index];
+            lists[index] = lists[partner];
+            lists[partner] = page;
         }
-        counters.drawn_static = atomicLoad(&begins[MAX_LEVELS]);
-        missing = min(sum, pages_frame.page_count);
+    }
+    storageBarrier();
+    workgroupBarrier();
+}
+
+// Sorts the missing pages: they are listed in any order, and are to have the same places whenever the same frames are drawn.
+fn sort_missing(local: u32) {
+    if local == 0u {
+        missing = min(atomicLoad(&missing_count), pages_frame.request_capacity);
+    }
+    let count = workgroupUniformLoad(&missing);
+    for (var width = 2u; width < 2u * count; width *= 2u) {
+        exchange(local, count, width - 1u);
+        for (var step = width / 4u; step > 0u; step /= 2u) {
+            exchange(local, count, step);
+        }
+    }
+    if local == 0u {
+        missing = min(count, pages_frame.page_count);
+        counters.drawn_static = atomicLoad(&missing_static);
     }
     workgroupBarrier();
 }
@@ -332,7 +389,8 @@ fn find_places(local: u32) {
 }
 
 // Gives a missing page the place of a rank.
-fn give_place(needed: ListedPage, kind: u32, rank: u32) {
+fn give_place(needed: ListedPage, rank: u32) {
+    let kind = kind_of(needed);
     let place = page_views.views[rank].tag.x;
     if physical_pages[place].version != 0u {
         free(place);
@@ -344,7 +402,7 @@ fn give_place(needed: ListedPage, kind: u32, rank: u32) {
         needed.page, version, level.exponent, frame, needed.entry, kind, frame, rank, level.depth_offset, PageDepths(),
     );
     set_resident(needed.entry, kind, place);
-    if kind == needed.has_movers {
+    if kind == shown_kind(needed) {
         show(needed.entry, place, PAGE_DRAWN);
     }
     page_views.views[rank].clip_from_world = clip_from_world(needed.page);
@@ -366,21 +424,11 @@ fn static_depths(entry: u32) -> u32 {
     return select(place, layer | IS_LAYER, is_drawn);
 }
 
-// Gives the missing pages their places.
-fn assign(local: u32) {
-    for (var index = local; index < listed_count(); index += THREADS) {
-        let needed = listed(index);
-        if !is_needed(needed.entry) {
-            continue;
-        }
-        for (var kind = STATIC; kind <= needed.has_movers; kind++) {
-            if resident(needed.entry, kind) != 0u {
-                continue;
-            }
-            let rank = atomicAdd(&begins[begin_of(kind, needed.page.level)], 1u);
-            if rank < missing {
-                give_place(needed, kind, rank);
-            }
+// Gives the missing pages of a kind their places.
+fn assign(local: u32, kind: u32) {
+    for (var rank = local; rank < missing; rank += THREADS) {
+        if kind_of(lists[rank]) == kind {
+            give_place(lists[rank], rank);
         }
     }
     storageBarrier();
@@ -404,8 +452,10 @@ fn clip_from_world(page: Page) -> mat4x4f {
 fn cs_allocate(@builtin(local_invocation_index) local: u32) {
     choose_coarsening(local);
     show_resident(local);
+    sort_missing(local);
     find_places(local);
-    assign(local);
+    assign(local, STATIC);
+    assign(local, COMPOSITE);
     for (var index = local; index < listed_count(); index += THREADS) {
         atomicStore(&marks[words_of(listed(index).entry) + 1u], 0u);
     }

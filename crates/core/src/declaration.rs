@@ -469,7 +469,9 @@ impl ResourceDecl {
             (ResourceDesc::Texture(own), ResourceDesc::Texture(other)) => {
                 ResourceDesc::Texture(crate::TextureDesc { size: other.size, ..own })
             }
-            (ResourceDesc::Buffer(_), ResourceDesc::Buffer(_)) => other.desc,
+            (ResourceDesc::Buffer(own), ResourceDesc::Buffer(other)) => {
+                ResourceDesc::Buffer(crate::BufferDesc { bytes: other.bytes, ..own })
+            }
             (own, _) => own,
         };
         Self { desc, ..*self } == *other

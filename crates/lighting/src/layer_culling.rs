@@ -112,7 +112,8 @@ impl LayerCullPass {
         let mut counts = frame.create_buffer("layer counts", BufferDesc::new(count_bytes));
         let mut draws = frame.create_buffer("layer draws", BufferDesc::new(batches * LAYER_DRAW_BYTES));
         let pair_bytes = u64::from(pair_capacity) * PAIR_BYTES;
-        let mut pairs = frame.create_buffer("layer pairs", BufferDesc::new(pair_bytes));
+        let pairs = BufferDesc::new(pair_bytes).unordered(PAIR_BYTES as u32);
+        let mut pairs = frame.create_buffer("layer pairs", pairs);
         let mut pass = frame.compute_pass("cull layers");
         let views = Bind::Buffer(pass.storage_buffer_mut(views, Contents::Preserve));
         let [counts, arguments, list] = [&mut counts, &mut draws, &mut pairs]

@@ -1,9 +1,9 @@
 //! Capturing textures changes neither the image of a frame nor its plan.
 
 use shadowgraph::core::TexelValues;
-use shadowgraph::inspect::InspectedFrame;
+use shadowgraph::inspect::{ContentsRecorder, InspectedFrame};
 use shadowgraph::options::Aov;
-use shadowgraph::shadows::{ShadowSettings, Techniques};
+use shadowgraph::shadows::{ShadowSettings, Techniques, VirtualSettings};
 use shadowgraph::{Renderer, ViewOptions};
 use shadowgraph_samples::demo::demo_scene;
 
@@ -53,4 +53,32 @@ fn the_page_outlines_the_frustum_of_every_shadow_map() {
     assert!(names[1].starts_with("cascade 0, 0.1 to ") && names.contains(&"light 2 (teal)"), "{names:?}");
     // Fitted to the visible depths on the GPU: the nearest cascade begins at the nearest surface.
     assert!(inspected.views[0].end_m < 60.0 && inspected.views[0].end_m > 0.0);
+}
+
+#[test]
+fn two_renderers_record_the_same_contents_with_every_technique() {
+    let Some(gpu) = gpu() else { return };
+    let scene = demo_scene();
+    let camera = scene.cameras[0].clone();
+    let mut shadows = ShadowSettings { distance_m: 60.0, ..ShadowSettings::default() };
+    shadows.techniques.set(&VirtualSettings { pool_mib: 8, ..VirtualSettings::default() }).unwrap();
+    let options = ViewOptions { camera: camera.clone(), size_px: [160, 90], shadows };
+    let techniques = Techniques::built_in();
+    for kind in techniques.kinds() {
+        let technique = techniques.find(kind.name).unwrap();
+        let record = || {
+            let mut renderer =
+                Renderer::with_config(gpu, scene.clone(), &camera, Aov::Color, technique).unwrap();
+            // What the first frame leaves is read by the second.
+            renderer.draw(gpu, &options).unwrap();
+            let mut recorder = ContentsRecorder::new(0);
+            renderer.record_contents(gpu, &options, &mut recorder).unwrap();
+            recorder.to_json().unwrap()
+        };
+        let (first, second) = (record(), record());
+        let problems: Vec<_> =
+            first.as_array().unwrap().iter().filter(|part| part["hash"].is_null()).collect();
+        assert!(problems.is_empty(), "{}: {problems:?}", kind.name);
+        assert_eq!(first, second, "{}", kind.name);
+    }
 }

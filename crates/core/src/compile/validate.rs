@@ -45,7 +45,7 @@ pub(super) fn validate_clears(decl: &Declaration) -> Result<(), Error> {
 
 fn shape_problem(origin: Origin, desc: &ResourceDesc) -> Option<String> {
     match desc {
-        ResourceDesc::Buffer(BufferDesc { bytes }) => {
+        ResourceDesc::Buffer(BufferDesc { bytes, .. }) => {
             let odd = origin == Origin::Transient && bytes % 4 != 0;
             if *bytes > MAX_BYTES {
                 return Some(format!("it has {bytes} bytes, more than any device has; make it smaller"));

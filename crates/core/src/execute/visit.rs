@@ -13,6 +13,7 @@ use crate::graph::Graph;
 use crate::handle::{PassId, ResourceId};
 use crate::read_back::{ReadBack, TexturePart};
 use crate::subresource::{Aspect, Rect, Subresource};
+use std::num::NonZeroU32;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 use wgpu_types::TextureUsages;
@@ -129,8 +130,16 @@ fn initial(recording: &Recording<'_>, encoder: &mut wgpu::CommandEncoder) -> Vec
 struct Pending {
     contained: Contained,
     copied: Option<ReadBack>,
-    /// What is kept of the copy, if that is more than the part.
-    crop: Option<Crop>,
+    kept: Kept,
+}
+
+/// What is kept of a copy.
+enum Kept {
+    All,
+    /// The part, if the copy is larger.
+    Crop(Crop),
+    /// All, with records of so many bytes sorted.
+    Records(NonZeroU32),
 }
 
 /// A rectangle of layers whose texels have some bytes.
@@ -158,9 +167,10 @@ impl Pending {
     fn wait(mut self, device: &wgpu::Device) -> Result<Contained, Error> {
         if let Some(copied) = self.copied {
             let bytes = copied.wait(device)?;
-            self.contained.bytes = Ok(match self.crop {
-                Some(crop) => crop.apply(&bytes),
-                None => bytes,
+            self.contained.bytes = Ok(match self.kept {
+                Kept::All => bytes,
+                Kept::Crop(crop) => crop.apply(&bytes),
+                Kept::Records(size) => sorted_records(&bytes, size),
             });
         }
         Ok(self.contained)
@@ -177,13 +187,13 @@ fn copies(
     let decl = &recording.plan.decl;
     let (device, name) = (recording.device, decl.resource_name(resource));
     let mut pending = Vec::new();
-    let mut add = |part, copied: Result<ReadBack, Error>, crop| {
+    let mut add = |part, copied: Result<ReadBack, Error>, kept| {
         let (copied, bytes) = match copied {
             Ok(copied) => (Some(copied), Ok(Vec::new())),
             Err(Error::ReadBack { problem, .. }) => (None, Err(problem)),
             Err(error) => (None, Err(error.to_string())),
         };
-        pending.push(Pending { contained: Contained { pass, resource, version, part, bytes }, copied, crop });
+        pending.push(Pending { contained: Contained { pass, resource, version, part, bytes }, copied, kept });
     };
     match decl.resource(resource).desc {
         ResourceDesc::Texture(desc) => {
@@ -195,7 +205,7 @@ fn copies(
                 let copied = TexturePart::from_part(name, &desc, &whole).and_then(|copied_part| {
                     ReadBack::texture(device, encoder, name, recording.texture(resource)?, &copied_part)
                 });
-                add(part, copied, crop);
+                add(part, copied, crop.map_or(Kept::All, Kept::Crop));
             }
         }
         ResourceDesc::Buffer(desc) => {
@@ -203,10 +213,21 @@ fn copies(
             let copied = recording
                 .buffer(resource)
                 .and_then(|buffer| ReadBack::buffer(device, encoder, name, buffer, start..end));
-            add(part, copied, None);
+            let is_whole = start == 0 && end == desc.bytes;
+            let record_bytes = desc.record_bytes.filter(|_| is_whole);
+            add(part, copied, record_bytes.map_or(Kept::All, Kept::Records));
         }
     }
     pending
+}
+
+/// Returns records in the order of their bytes; what is left after the last one stays at the end.
+fn sorted_records(bytes: &[u8], record_bytes: NonZeroU32) -> Vec<u8> {
+    let (records, rest) = bytes.split_at(bytes.len() - bytes.len() % record_bytes.get() as usize);
+    let mut records: Vec<&[u8]> = records.chunks_exact(record_bytes.get() as usize).collect();
+    records.sort_unstable();
+    records.push(rest);
+    records.concat()
 }
 
 /// Returns what a rectangle keeps of the copy of a mip level of an aspect.

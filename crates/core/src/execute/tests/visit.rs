@@ -1,7 +1,7 @@
 //! Contents that passes write, visited pass by pass.
 
 use super::gpu::Gpu;
-use crate::{Contained, Contents, Format, Frame, Graph, Plan, Rect, Subresource, TextureDesc};
+use crate::{BufferDesc, Contained, Contents, Format, Frame, Graph, Plan, Rect, Subresource, TextureDesc};
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicU32, Ordering};
 
@@ -134,6 +134,22 @@ fn mips_and_aspects_are_separate_and_buffers_have_their_range() {
             .find(|contained| contained.bytes.as_ref().is_ok_and(|bytes| bytes.len() == 8))
             .unwrap();
         assert_eq!(uploaded.bytes, Ok(vec![1, 2, 3, 4, 5, 6, 7, 8]));
+    }
+}
+
+#[test]
+fn records_of_an_unordered_buffer_are_sorted() {
+    for gpu in Gpu::all() {
+        let (visited, _) = visit(&gpu, |frame| {
+            let source = frame.upload_buffer("source", vec![4, 1, 0, 0, 3, 2, 0, 0, 3, 1, 0, 0, 2, 9, 9, 9]);
+            let mut list = frame.create_buffer("list", BufferDesc::new(16).unordered(4));
+            frame.copy_pass("append").buffer(&source, &mut list);
+            frame.export_buffer(&list);
+        });
+        let bytes = visited.last().unwrap().bytes.clone();
+        if gpu.draws {
+            assert_eq!(bytes, Ok(vec![2, 9, 9, 9, 3, 1, 0, 0, 3, 2, 0, 0, 4, 1, 0, 0]));
+        }
     }
 }
 

@@ -28,7 +28,7 @@ const LIST_WORKGROUPS: u32 = 32;
 const REQUESTS: u32 = 1 << 15;
 const NEEDS: u32 = 1 << 16;
 /// Bytes of `ListedPage`, `Counters` and `LayerView`, and of the header of `LayerViews`.
-const LISTED_BYTES: u64 = 24;
+const LISTED_BYTES: u32 = 24;
 const COUNTER_BYTES: u64 = 48;
 const VIEW_BYTES: u64 = 96;
 const VIEWS_HEADER_BYTES: u64 = 32;
@@ -135,6 +135,8 @@ impl Passes {
         let upload = |frame: &mut Frame<'f>, name: &'static str, bytes: &[u8]| {
             frame.upload_buffer(name, bytes.to_vec())
         };
+        let list_bytes = u64::from(LISTED_BYTES) * u64::from(REQUESTS + NEEDS);
+        let lists = BufferDesc::new(list_bytes).unordered(LISTED_BYTES);
         let mut steps = Steps {
             block: upload(frame, "pages of the frame", &block),
             projections: upload(frame, "projections", bytemuck::cast_slice(&plan.projections)),
@@ -142,8 +144,7 @@ impl Passes {
             lights: upload(frame, "shadow lights", bytemuck::cast_slice(&plan.lights)),
             marks: frame.import_buffer("page marks", &store.marks, true),
             counters: upload(frame, "page counters", &[0; COUNTER_BYTES as usize]),
-            lists: frame
-                .create_buffer("page lists", BufferDesc::new(LISTED_BYTES * u64::from(REQUESTS + NEEDS))),
+            lists: frame.create_buffer("page lists", lists),
             table: frame.import_buffer("page table", &store.table, true),
             pages: frame.import_buffer("physical pages", &store.pages, true),
             views: frame.create_buffer(

@@ -132,11 +132,14 @@ impl PageStore {
             sample_count: 1,
             dimension: wgpu::TextureDimension::D2,
             format: POOL_FORMAT,
-            usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::RENDER_ATTACHMENT,
+            usage: wgpu::TextureUsages::TEXTURE_BINDING
+                | wgpu::TextureUsages::RENDER_ATTACHMENT
+                | wgpu::TextureUsages::COPY_SRC,
             view_formats: &[],
         });
         let buffer = |label, size| {
-            let usage = wgpu::BufferUsages::STORAGE;
+            // With the latter, captured frames have their contents.
+            let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC;
             device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some(label),
                 size,

@@ -98,7 +98,7 @@ fn a_slot_that_is_too_small() {
     let shrink = |stage, work: &mut Work| {
         let slots = (stage == Stage::Alias).then_some(&mut work.plan.slots)?;
         let large = slots.iter_mut().find(|s| matches!(s.desc, ResourceDesc::Buffer(d) if d.bytes > 4));
-        let shrunk = large.map(|slot| slot.desc = ResourceDesc::Buffer(BufferDesc { bytes: 4 }));
+        let shrunk = large.map(|slot| slot.desc = ResourceDesc::Buffer(BufferDesc::new(4)));
         Some(shrunk.is_some())
     };
     search(&[Rule::Slots], shrink).always_caught();

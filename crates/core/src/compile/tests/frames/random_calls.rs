@@ -126,9 +126,14 @@ impl RandomCalls<'_> {
             let bytes = u64::from(self.number()) * u64::from(self.number());
             let usage = BufferUsages::from_bits_truncate(self.number());
             self.buffers.push(match self.source.below(8) {
-                0 => frame.declare_import_buffer("import", BufferDesc { bytes }, usage, false),
+                0 => frame.declare_import_buffer(
+                    "import",
+                    BufferDesc { bytes, record_bytes: None },
+                    usage,
+                    false,
+                ),
                 1 => frame.upload_buffer("upload", vec![0; self.source.below(9)]),
-                _ => frame.create_buffer("buffer", BufferDesc { bytes }),
+                _ => frame.create_buffer("buffer", BufferDesc { bytes, record_bytes: None }),
             });
         }
         let index = self.source.below(self.buffers.len());
