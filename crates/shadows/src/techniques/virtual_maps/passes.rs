@@ -25,8 +25,8 @@ const THREADS: u32 = 64;
 /// Workgroups of passes over lists whose length the CPU does not know.
 const LIST_WORKGROUPS: u32 = 32;
 /// The most pages that the pixels of a frame request, and that it may need at any coarsening.
-const REQUESTS: u32 = 1 << 15;
-const NEEDS: u32 = 1 << 16;
+const REQUESTS: u32 = 1 << 16;
+const NEEDS: u32 = 1 << 17;
 /// Bytes of `ListedPage`, `Counters` and `LayerView`, and of the header of `LayerViews`.
 const LISTED_BYTES: u32 = 24;
 const COUNTER_BYTES: u64 = 48;

@@ -11,8 +11,8 @@ declare_settings! {
         /// what a frame needs, all levels are coarser.
         pool_mib: u32 = 64, power_of_two 4..=1024, in "MiB";
         /// Levels by which maps are coarser (above 0) or finer (below 0) than pixels: with 0, texels are at most as wide as the pixels that they
-        /// are read from; with -1, at most half as wide, with harder edges.
-        level_bias: f32 = -0.25, -2..=4, in "levels";
+        /// are read from; with -1, at most half as wide, with harder edges. Thin casters keep more of their shadows where texels are narrow.
+        level_bias: f32 = -1.25, -3..=4, in "levels";
         /// Filter of lights without their own, in place of `cascades.filter` and `atlas.filter`; it is narrower where penumbrae are.
         filter: ShadowFilter = ShadowFilter::Tent7;
         /// Penumbrae widen with the distance to the blocker, for lights with the radii of the settings of `pcss`.
