@@ -12,7 +12,7 @@
 #import shadowgraph::shadows::types::ShadowLight
 
 // Shadows narrower than a pixel fall between the texels of narrower filters.
-const NARROWEST_HALF: f32 = 2.0;
+const NARROWEST_HALF: f32 = 2.5;
 const SEARCH_TAPS: u32 = 8u;
 
 // `level`: the one whose texels are as wide as the pixel asks for.
