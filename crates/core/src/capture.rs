@@ -67,6 +67,6 @@ pub struct Contained {
     /// The part: of a texture one mip level and one aspect.
     pub part: Subresource,
     /// The bytes, for textures in rows from the top and layer by layer without padding, with the
-    /// records of [unordered](crate::BufferDesc::unordered) buffers sorted, or the reason why there are none.
+    /// elements of [unordered](crate::BufferDesc::unordered) buffers sorted, or the reason why there are none.
     pub bytes: Result<Vec<u8>, String>,
 }

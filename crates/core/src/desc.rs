@@ -88,23 +88,23 @@ impl TextureDesc {
 pub struct BufferDesc {
     /// Size in bytes, at least 4 and a multiple of 4.
     pub bytes: u64,
-    /// Bytes of a record, if the GPU appends records in any order. Where contents are compared, so are the records, sorted by their bytes.
+    /// Size in bytes of an element, if the buffer is a list to which the GPU appends in any order.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub record_bytes: Option<NonZeroU32>,
+    pub element_bytes: Option<NonZeroU32>,
 }
 
 impl BufferDesc {
     /// Describes a buffer of `bytes` bytes, rounded up to a multiple of 4 for copies.
     pub fn new(bytes: u64) -> Self {
         let bytes = bytes.checked_next_multiple_of(4).unwrap_or(u64::MAX - 3).max(4);
-        Self { bytes, record_bytes: None }
+        Self { bytes, element_bytes: None }
     }
 
-    /// Declares that the buffer is a list to which the GPU appends records of so many bytes in any order, such as with an atomic counter. Frames
-    /// with the same records are then equal for [`Contained`](crate::Contained).
+    /// Declares that the buffer is a list of elements of this size, to which the GPU appends in any order, such as with an atomic counter.
+    /// [`Contained`](crate::Contained) has its elements sorted, so two frames with the same elements are equal.
     #[must_use]
-    pub fn unordered(self, record_bytes: u32) -> Self {
-        Self { record_bytes: NonZeroU32::new(record_bytes), ..self }
+    pub fn unordered(self, element_bytes: u32) -> Self {
+        Self { element_bytes: NonZeroU32::new(element_bytes), ..self }
     }
 }
 

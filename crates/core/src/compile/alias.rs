@@ -165,7 +165,10 @@ fn class(decl: &Declaration, uses: &[Use], resource: ResourceId) -> Class {
         ResourceDesc::Buffer(desc) => {
             // An export is returned to the caller, so it has the requested size.
             let bytes = if declared.exported.is_some() { desc.bytes } else { size_class(desc.bytes) };
-            Class { desc: ResourceDesc::Buffer(BufferDesc { bytes, record_bytes: None }), kind: Kind::Common }
+            Class {
+                desc: ResourceDesc::Buffer(BufferDesc { bytes, element_bytes: None }),
+                kind: Kind::Common,
+            }
         }
         ResourceDesc::Texture(desc) => {
             let flat = desc.dimension == TextureDimension::D2

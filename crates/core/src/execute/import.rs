@@ -51,7 +51,7 @@ impl Frame<'_> {
 
     /// Imports a buffer that belongs to the caller. See [`import_texture`](Self::import_texture).
     pub fn import_buffer(&mut self, name: impl Name, buffer: &wgpu::Buffer, defined: bool) -> Buffer {
-        let desc = BufferDesc { bytes: buffer.size(), record_bytes: None };
+        let desc = BufferDesc { bytes: buffer.size(), element_bytes: None };
         let handle = self.declare_import_buffer(name, desc, buffer.usage(), defined);
         self.work.imports[handle.id().index()] = Some(PhysicalResource::Buffer(buffer.clone()));
         handle

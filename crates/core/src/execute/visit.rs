@@ -138,8 +138,8 @@ enum Kept {
     All,
     /// The part, if the copy is larger.
     Crop(Crop),
-    /// All, with records of so many bytes sorted.
-    Records(NonZeroU32),
+    /// All, with the elements of this size sorted.
+    Sorted(NonZeroU32),
 }
 
 /// A rectangle of layers whose texels have some bytes.
@@ -170,7 +170,7 @@ impl Pending {
             self.contained.bytes = Ok(match self.kept {
                 Kept::All => bytes,
                 Kept::Crop(crop) => crop.apply(&bytes),
-                Kept::Records(size) => sorted_records(&bytes, size),
+                Kept::Sorted(size) => sorted_elements(&bytes, size),
             });
         }
         Ok(self.contained)
@@ -214,20 +214,20 @@ fn copies(
                 .buffer(resource)
                 .and_then(|buffer| ReadBack::buffer(device, encoder, name, buffer, start..end));
             let is_whole = start == 0 && end == desc.bytes;
-            let record_bytes = desc.record_bytes.filter(|_| is_whole);
-            add(part, copied, record_bytes.map_or(Kept::All, Kept::Records));
+            let element_bytes = desc.element_bytes.filter(|_| is_whole);
+            add(part, copied, element_bytes.map_or(Kept::All, Kept::Sorted));
         }
     }
     pending
 }
 
-/// Returns records in the order of their bytes; what is left after the last one stays at the end.
-fn sorted_records(bytes: &[u8], record_bytes: NonZeroU32) -> Vec<u8> {
-    let (records, rest) = bytes.split_at(bytes.len() - bytes.len() % record_bytes.get() as usize);
-    let mut records: Vec<&[u8]> = records.chunks_exact(record_bytes.get() as usize).collect();
-    records.sort_unstable();
-    records.push(rest);
-    records.concat()
+/// Returns elements in the order of their bytes; what is left after the last one stays at the end.
+fn sorted_elements(bytes: &[u8], element_bytes: NonZeroU32) -> Vec<u8> {
+    let (elements, rest) = bytes.split_at(bytes.len() - bytes.len() % element_bytes.get() as usize);
+    let mut elements: Vec<&[u8]> = elements.chunks_exact(element_bytes.get() as usize).collect();
+    elements.sort_unstable();
+    elements.push(rest);
+    elements.concat()
 }
 
 /// Returns what a rectangle keeps of the copy of a mip level of an aspect.

@@ -138,7 +138,7 @@ fn mips_and_aspects_are_separate_and_buffers_have_their_range() {
 }
 
 #[test]
-fn records_of_an_unordered_buffer_are_sorted() {
+fn elements_of_an_unordered_buffer_are_sorted() {
     for gpu in Gpu::all() {
         let (visited, _) = visit(&gpu, |frame| {
             let source = frame.upload_buffer("source", vec![4, 1, 0, 0, 3, 2, 0, 0, 3, 1, 0, 0, 2, 9, 9, 9]);

@@ -128,12 +128,12 @@ impl RandomCalls<'_> {
             self.buffers.push(match self.source.below(8) {
                 0 => frame.declare_import_buffer(
                     "import",
-                    BufferDesc { bytes, record_bytes: None },
+                    BufferDesc { bytes, element_bytes: None },
                     usage,
                     false,
                 ),
                 1 => frame.upload_buffer("upload", vec![0; self.source.below(9)]),
-                _ => frame.create_buffer("buffer", BufferDesc { bytes, record_bytes: None }),
+                _ => frame.create_buffer("buffer", BufferDesc { bytes, element_bytes: None }),
             });
         }
         let index = self.source.below(self.buffers.len());
