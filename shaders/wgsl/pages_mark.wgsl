@@ -139,6 +139,8 @@ fn request(page: Page, projection: Projection, level: Level, bits: u32) {
         let index = atomicAdd(&counters.requested, 1u);
         if index < pages_frame.request_capacity {
             lists[index] = ListedPage(page, entry, 0u);
+        } else {
+            atomicStore(&marks[words_of(entry)], 0u);
         }
     }
 }

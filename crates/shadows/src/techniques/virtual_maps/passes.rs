@@ -33,8 +33,10 @@ const COUNTER_BYTES: u64 = 48;
 const VIEW_BYTES: u64 = 96;
 const VIEWS_HEADER_BYTES: u64 = 32;
 
-/// The numbers of `Counters` that are read back, from `needed` on, and their bytes.
-const COUNTS: [&str; 6] = [
+/// The numbers of `Counters` that are read back, from `requested` on, and their bytes.
+const COUNTS: [&str; 8] = [
+    "pages requested",
+    "pages listed",
     ShadowCounts::PAGES,
     "pages resident",
     "static pages drawn",
@@ -42,10 +44,17 @@ const COUNTS: [&str; 6] = [
     ShadowCounts::CASTERS,
     "coarsening, quarters of a level",
 ];
-const COUNT_BYTES: std::ops::Range<u64> = 24..COUNTER_BYTES;
+const COUNT_BYTES: std::ops::Range<u64> = 16..COUNTER_BYTES;
 
-/// Returns a sentence if the pool is too small for texels that are as narrow as pixels.
+/// Returns a sentence if the pool is too small for texels that are as narrow as pixels, or a list for the pages.
 fn warning(counts: &[u32], level_bias: f32) -> Option<String> {
+    if let [requested, listed, ..] = *counts
+        && (requested > REQUESTS || listed > NEEDS)
+    {
+        return Some(format!(
+            "shadow maps are coarser in parts of the image: it needs more pages than `virtual` can list; raise level_bias, which is {level_bias}"
+        ));
+    }
     let quarters = counts.last().copied().filter(|quarters| *quarters > 0)?;
     let texels = (level_bias + quarters as f32 / 4.0).exp2();
     (texels > 1.0).then(|| {
@@ -435,4 +444,21 @@ fn store_pipeline(device: &wgpu::Device) -> Result<(wgpu::BindGroupLayout, wgpu:
         cache: None,
     });
     Ok((store_layout, pipeline))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn warnings_name_the_setting_that_is_too_small() {
+        let counts = |requested, listed, quarters| [requested, listed, 9, 9, 9, 0, 9, quarters];
+        assert_eq!(COUNTS.len(), counts(0, 0, 0).len());
+        assert_eq!(warning(&counts(REQUESTS, NEEDS, 5), -1.25), None);
+        let said = warning(&counts(9, 9, 9), -1.25);
+        assert!(said.is_some_and(|said| said.contains("2.0 times") && said.contains("pool_mib")));
+        for counts in [counts(REQUESTS + 1, 9, 0), counts(9, NEEDS + 1, 0)] {
+            assert!(warning(&counts, -1.25).is_some_and(|said| said.contains("level_bias, which is -1.25")));
+        }
+    }
 }
