@@ -3,7 +3,7 @@
 use crate::stage::gpu;
 use glam::DVec3;
 use shadowgraph::options::Aov;
-use shadowgraph::scene::{Camera, Light, LightKind, Scene};
+use shadowgraph::scene::{Camera, Light, LightKind, Projection, Scene};
 use shadowgraph::shadows::{PCF, PcssSettings, ShadowSettings, TechniqueKind, VIRTUAL, VirtualSettings};
 use shadowgraph::{Gpu, Pipeline, RenderConfig, RenderedFrame, Renderer, ViewOptions, wgpu};
 use shadowgraph_quality::{Comparator, built_in_cases};
@@ -171,4 +171,24 @@ fn the_smallest_pool_gives_coarse_shadows_without_holes() {
     let wrong = pixels.filter(|(a, b)| a[0].abs_diff(b[0]) > 128).count();
     // Narrow shadows are lost; those of towers and arches are not.
     assert!(wrong * 50 < 320 * 180, "{wrong} pixels");
+}
+
+#[test]
+fn a_near_plane_at_a_tenth_of_a_millimetre_leaves_the_shadows_nine_hundred_metres_away() {
+    let Some(gpu) = gpu() else { return };
+    let scene = city(30_000, 1).unwrap();
+    let draw = |near| {
+        let projection = Projection::Perspective { fov_y: 1.0, near, far: None };
+        let camera = Camera { projection, ..scene.cameras[0].clone() };
+        let mut renderer =
+            Renderer::with_config(gpu, scene.clone(), &camera, Aov::Visibility(0), config(VIRTUAL)).unwrap();
+        let shadows = ShadowSettings { distance_m: 900.0, ..with_pool(64) };
+        let frame = renderer.draw(gpu, &ViewOptions { camera, size_px: [320, 180], shadows }).unwrap();
+        assert!(!frame.unshadowed.iter().any(|unshadowed| unshadowed.light == 0), "{:?}", frame.unshadowed);
+        frame.image.rgba8
+    };
+    let (far, near) = (draw(0.1), draw(1e-4));
+    let pixels = near.chunks_exact(4).zip(far.chunks_exact(4));
+    let differing = pixels.filter(|(a, b)| a[0].abs_diff(b[0]) > 64).count();
+    assert!(differing * 200 < 320 * 180, "{differing} pixels");
 }

@@ -5,7 +5,7 @@ use shadowgraph_scene::Aabb;
 
 use super::projections::{
     DIRECTIONAL_LEVELS, DirectionalLevel, GpuLevel, GpuProjection, LOCAL_LEVELS, LOCAL_TEXELS, PAGE_PX,
-    Projection, Viewpoint, local_levels, map_position,
+    Projection, Viewpoint, coarsest_texel_m, local_levels, map_position,
 };
 use super::settings::VirtualSettings;
 use super::slots::{Group, Slots};
@@ -82,12 +82,14 @@ impl VirtualPlan {
         height_px: u32,
     ) -> Result<Self, Error> {
         let ShadowedLights { mut candidates, mut unshadowed, range } = shadowed_lights(inputs)?;
-        let viewpoint = Viewpoint::new(inputs.camera, height_px, range.distance_m, inputs.origin_world);
         let view = ViewBounds::new(inputs, &range);
         let is_directional =
             |candidate: &&Candidate<'_>| matches!(candidate.shape, Shape::Directional { .. });
         let suns = candidates.iter().filter(is_directional).count().max(1) as u32;
         let budget = (page_count / COARSE_PART / suns).max(MIN_COARSE);
+        let coarsest_m = coarsest_texel_m(range.distance_m, view.diameter_m(), budget);
+        let viewpoint =
+            Viewpoint::new(inputs.camera, height_px, own.level_bias, coarsest_m, inputs.origin_world);
 
         let mut coarse = Vec::new();
         let mut groups = Vec::new();
@@ -147,6 +149,15 @@ impl ViewBounds {
         let corners = range.corners(range.near_m, range.distance_m);
         let receivers = inputs.casters.receivers();
         Self { bounds: Aabb::from_points(corners), corners, receivers: receivers.corners() }
+    }
+
+    /// Returns a length that all distances between visible receivers are within, metres; it stays the same where the camera moves.
+    fn diameter_m(&self) -> f64 {
+        let diameter = |corners: &[DVec3; 8]| {
+            let pairs = corners.iter().flat_map(|from| corners.iter().map(|to| from.distance(*to)));
+            pairs.fold(0.0, f64::max)
+        };
+        diameter(&self.corners).min(diameter(&self.receivers))
     }
 
     /// Returns the rectangle of the visible receivers on the axes of a directional light's maps.

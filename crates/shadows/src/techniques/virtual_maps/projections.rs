@@ -24,6 +24,8 @@ pub(super) const LOCAL_TEXELS: u32 = (PAGE_TEXELS as u32) << LOCAL_SIDE_SHIFT;
 pub(super) const LOCAL_LEVELS: u32 = LOCAL_SIDE_SHIFT + 1;
 /// Entries of a spot light or of a face of a point light in the table.
 pub(super) const LOCAL_ENTRIES: u32 = ((1 << (2 * LOCAL_LEVELS)) - 1) / 3;
+/// `MAX_NARROWING` of `shadows/pages.wgsl`.
+const MAX_NARROWING: f64 = 1.0;
 /// The depth range of a level of a directional light, texels: a power of two.
 const DEPTH_TEXELS: f64 = 131_072.0;
 /// Steps in which that range follows the camera, as a fraction of it.
@@ -101,9 +103,15 @@ pub(super) struct Viewpoint {
 }
 
 impl Viewpoint {
-    /// Returns the viewpoint of an image that is `height_px` high. The finest texels are as wide as a pixel at the near plane, or wider so
-    /// that the coarsest level reaches `distance_m`.
-    pub(super) fn new(camera: &Camera, height_px: u32, distance_m: f64, origin_world: DVec3) -> Self {
+    /// Returns the viewpoint of an image that is `height_px` high. The finest texels are as wide as the narrowest pixel at the near plane asks
+    /// for, or wider so that the coarsest are `coarsest_m` wide.
+    pub(super) fn new(
+        camera: &Camera,
+        height_px: u32,
+        level_bias: f32,
+        coarsest_m: f64,
+        origin_world: DVec3,
+    ) -> Self {
         let near_m = camera.near();
         let corners = camera.slice_corners_view(1.0, near_m, 2.0 * near_m.abs() + 1.0);
         let height_m = |corners: &[DVec3]| {
@@ -111,13 +119,21 @@ impl Viewpoint {
             heights.clone().fold(f64::MIN, f64::max) - heights.fold(f64::MAX, f64::min)
         };
         let pixel_m = height_m(&corners[..4]) / f64::from(height_px.max(1));
-        // Half of the coarsest level's pages, less some at the edge.
-        let coarsest_m = distance_m / (f64::from(DIRECTIONAL_SIDE / 2 - 4) * PAGE_TEXELS);
-        let from_near = pixel_m.log2().floor();
-        let from_distance = coarsest_m.log2().ceil() - f64::from(DIRECTIONAL_LEVELS - 1);
-        let finest_exponent = from_near.max(from_distance).clamp(-60.0, 60.0) as i32;
+        let from_near = (pixel_m.log2() + f64::from(level_bias) - MAX_NARROWING).floor();
+        let from_coarsest = coarsest_m.log2().ceil() - f64::from(DIRECTIONAL_LEVELS - 1);
+        let finest_exponent = from_near.max(from_coarsest).clamp(-60.0, 60.0) as i32;
         Self { origin_world, eye_world: camera.position_world(), finest_exponent }
     }
+}
+
+/// Returns how wide the coarsest texels of directional lights have to be, metres: their level reaches `distance_m`, and `budget` of its pages
+/// cover receivers of this diameter.
+pub(super) fn coarsest_texel_m(distance_m: f64, diameter_m: f64, budget: u32) -> f64 {
+    // Half of the pages, less some at the edge.
+    let reach = f64::from(DIRECTIONAL_SIDE / 2 - 4);
+    // Receivers that are as wide as some pages touch one more.
+    let side = f64::from(budget).sqrt().floor() - 1.0;
+    (distance_m / reach).max(diameter_m / side.max(1.0)) / PAGE_TEXELS
 }
 
 impl Projection {
@@ -308,17 +324,27 @@ mod tests {
     }
 
     #[test]
-    fn the_finest_texels_are_as_wide_as_a_pixel_at_the_near_plane() {
+    fn the_finest_texels_are_as_wide_as_the_narrowest_pixel_at_the_near_plane() {
         use shadowgraph_scene::Projection as CameraProjection;
-        let exponent = |near, distance_m| {
+        let exponent = |near, level_bias, coarsest_m| {
             let projection = CameraProjection::Perspective { fov_y: 1.0, near, far: None };
             let camera = Camera::look_at(DVec3::ZERO, DVec3::X, DVec3::Y, projection);
-            Viewpoint::new(&camera, 720, distance_m, DVec3::ZERO).finest_exponent
+            Viewpoint::new(&camera, 720, level_bias, coarsest_m, DVec3::ZERO).finest_exponent
         };
-        // 2 x 0.1 x tan(0.5) / 720 = 0.15 mm.
-        assert_eq!(exponent(0.1, 150.0), -13);
-        assert_eq!(exponent(0.2, 150.0), -12);
-        // The coarsest of 16 levels reaches 7,680 texels far.
-        assert_eq!(exponent(1e-9, 150.0), -20);
+        // 2 x 0.1 x tan(0.5) / 720 = 0.15 mm, half as wide where the pixel is narrow on the map.
+        assert_eq!(exponent(0.1, 0.0, 0.1), -14);
+        assert_eq!(exponent(0.2, 0.0, 0.1), -13);
+        assert_eq!(exponent(0.1, -1.5, 0.1), -16);
+        assert_eq!(exponent(0.1, 4.0, 0.1), -10);
+        // 16 levels.
+        assert_eq!(exponent(1e-9, 0.0, 0.25), -17);
+    }
+
+    #[test]
+    fn the_coarsest_level_covers_all_receivers_with_its_budget_of_pages() {
+        // 60 pages to the side of the camera, and 9 of 10 along the receivers.
+        assert_eq!(coarsest_texel_m(7680.0, 1.0, 112), 1.0);
+        assert_eq!(coarsest_texel_m(1.0, 1152.0, 112), 1.0);
+        assert_eq!(coarsest_texel_m(1.0, 128.0, 4), 1.0);
     }
 }
