@@ -310,8 +310,10 @@ mod tests {
             position, kind, direction, range, color, spot_scale, spot_offset,
         )
         .unwrap();
-        let few = format!("const FEW_LIGHTS: u32 = {MAX_FEW_LIGHTS}u;");
-        assert!(shadowgraph_shaders::FEW_LIGHTS.source.contains(&few), "{few}");
+        for (name, size) in [("FEW_LIGHTS", MAX_FEW_LIGHTS), ("LIGHT_WORDS", size_of::<GpuLight>() / 16)] {
+            let line = format!("const {name}: u32 = {size}u;");
+            assert!(shadowgraph_shaders::FEW_LIGHTS.source.contains(&line), "{line}");
+        }
     }
 
     fn spot(inner_angle: f64, outer_angle: f64) -> GpuLight {

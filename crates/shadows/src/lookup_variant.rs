@@ -213,7 +213,9 @@ mod tests {
     #[test]
     fn uniform_blocks_have_the_sizes_of_the_wgsl() {
         let source = FEW_VIEWS_MODULE.source;
-        for (name, size) in [("FEW_VIEWS", FEW_VIEWS), ("FEW_LIGHTS", FEW_LIGHTS)] {
+        let words =
+            [("VIEW_WORDS", size_of::<ShadowView>() / 16), ("LIGHT_WORDS", size_of::<ShadowLight>() / 16)];
+        for (name, size) in [("FEW_VIEWS", FEW_VIEWS), ("FEW_LIGHTS", FEW_LIGHTS)].into_iter().chain(words) {
             assert!(source.contains(&format!("const {name}: u32 = {size}u;")), "{name}");
         }
     }
