@@ -14,7 +14,9 @@ use super::skins::Skins;
 use super::validate::{
     MAX_BYTES, MAX_INSTANCES, MAX_VERTICES, MAX_WORLD_M, SUPPORTED_EXTENSIONS, check_header, check_references,
 };
-use super::{animations, container, conversions, extras, hierarchy, images, instancing, materials, variants};
+use super::{
+    animations, container, conversions, extras, hierarchy, images, instancing, materials, uri, variants,
+};
 use crate::error::Error;
 use crate::keys::{InstanceKey, MaterialKey};
 use crate::material::{Image, TextureRef};
@@ -96,6 +98,39 @@ pub fn load_bytes(
 ) -> Result<Scene, Error> {
     import(bytes, &Files::in_memory(files), options, progress)
         .map_err(|error| invalid(Path::new(name), error))
+}
+
+/// Returns the paths of the files that a glTF or GLB file in memory refers to, relative to it and with `/`: what [`load_bytes`] needs beside it.
+/// `name` is for errors.
+///
+/// ```
+/// use shadowgraph_scene::gltf::referenced_files;
+/// let text = br#"{"asset": {"version": "2.0"}, "buffers": [{"byteLength": 4, "uri": "a%20b.bin"}]}"#;
+/// assert_eq!(referenced_files("scene.gltf", text)?, ["a b.bin"]);
+/// # Ok::<(), shadowgraph_scene::Error>(())
+/// ```
+///
+/// # Errors
+/// For a file that is no glTF, and for a path that leads out of the file's directory.
+pub fn referenced_files(name: &str, bytes: &[u8]) -> Result<Vec<String>, Error> {
+    references(bytes).map_err(|error| invalid(Path::new(name), error))
+}
+
+fn references(bytes: &[u8]) -> Result<Vec<String>, ImportError> {
+    let document = Document::from_json(container::split(bytes)?.json)?;
+    let buffers = document.buffers.iter().map(|buffer| ("buffers", &buffer.uri));
+    let images = document.images.iter().map(|image| ("images", &image.uri));
+    let mut paths: Vec<String> = Vec::new();
+    for (location, uri) in buffers.chain(images) {
+        let Some(uri) = uri.as_deref().filter(|uri| uri::data(uri).is_none()) else { continue };
+        let path = uri::relative_path(uri).map_err(|reason| ImportError::new(location, reason))?;
+        let names: Vec<_> = path.iter().map(|name| name.to_string_lossy()).collect();
+        let path = names.join("/");
+        if !paths.contains(&path) {
+            paths.push(path);
+        }
+    }
+    Ok(paths)
 }
 
 fn invalid(file: &Path, ImportError { location, reason }: ImportError) -> Error {

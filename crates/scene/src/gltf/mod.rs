@@ -40,7 +40,7 @@ mod validate;
 mod variants;
 
 pub use images::{MAX_IMAGE_BYTES, MAX_IMAGE_SIZE_PX};
-pub use load::{LoadOptions, Progress, load, load_bytes, load_with};
+pub use load::{LoadOptions, Progress, load, load_bytes, load_with, referenced_files};
 pub use validate::{
     MAX_BYTES, MAX_INDICES, MAX_INSTANCES, MAX_JOINTS, MAX_KEYFRAME_VALUES, MAX_MORPH_WEIGHTS, MAX_VERTICES,
     MAX_WORLD_M, SUPPORTED_EXTENSIONS,
