@@ -18,7 +18,7 @@ const SCENE: u64 = 50;
 const SHARE: u64 = 250;
 
 /// The default number of frames.
-const FRAMES: u64 = 200;
+const FRAMES: u64 = 100;
 
 /// One renderer culls on the CPU, the other on the GPU.
 struct Pair([Renderer; 2]);

@@ -33,7 +33,7 @@ fn gpu() -> Option<&'static Gpu> {
 
 /// Returns the number of frames to draw.
 fn frames() -> u64 {
-    from_env("SHADOWGRAPH_SOAK").unwrap_or(120)
+    from_env("SHADOWGRAPH_SOAK").unwrap_or(60)
 }
 
 /// Returns the seed of the first random numbers.
