@@ -1,6 +1,7 @@
 //! Installs packages with apt-get where this process may, and names the line to run where it may not.
 
 use crate::child;
+use std::path::Path;
 use std::process::Stdio;
 
 /// The packages that have a program or library, separated by spaces: of Debian, Fedora and Arch Linux.
@@ -32,6 +33,54 @@ pub(crate) fn install(missing: &[Packages]) -> Result<(), String> {
     println!("Installing {} ...", known.join(" "));
     let arguments = [&["install", "-y", "--no-install-recommends"], known.as_slice()].concat();
     if run(&arguments)? { Ok(()) } else { Err("apt-get failed".to_owned()) }
+}
+
+/// Downloads packages of Debian with those that they depend on, as far as their names begin like one of `families`, and unpacks them in a
+/// directory, where they do not conflict with installed ones. This needs no right to install.
+///
+/// # Errors
+/// When apt does not know a package, or cannot download it.
+pub(crate) fn unpack(packages: &[&str], families: &[&str], directory: &Path) -> Result<(), String> {
+    const ONLY_NEEDED: [&str; 7] = [
+        "--recurse",
+        "--no-recommends",
+        "--no-suggests",
+        "--no-conflicts",
+        "--no-breaks",
+        "--no-replaces",
+        "--no-enhances",
+    ];
+    if !child::succeeds("apt-cache", &[&["show"], packages].concat()) {
+        // A fresh machine has no package lists.
+        if let Some(prefix) = prefix() {
+            let (program, before) = prefix.split_first().ok_or("nothing to run")?;
+            child::stream(child::command(program).args(before).args(APT).arg("update"))?;
+        }
+    }
+    let all = child::output_of("apt-cache", &[&["depends"], &ONLY_NEEDED[..], packages].concat());
+    let mut names: Vec<&str> =
+        all.lines().filter(|name| families.iter().any(|family| name.starts_with(family))).collect();
+    names.sort_unstable();
+    names.dedup();
+    if let Some(missing) = packages.iter().find(|package| !names.contains(package)) {
+        return Err(format!("apt does not know the package {missing}"));
+    }
+    let archives = directory.join("archives");
+    let failed = |error: std::io::Error| format!("cannot write {}: {error}", directory.display());
+    std::fs::create_dir_all(&archives).map_err(failed)?;
+    let mut download = child::command("apt-get");
+    download.args(["-qq", "-oAPT::Sandbox::User=root", "download"]).args(&names).current_dir(&archives);
+    if !child::stream(&mut download)?.success() {
+        return Err(format!("apt-get cannot download {}", names.join(", ")));
+    }
+    for archive in std::fs::read_dir(&archives).map_err(failed)? {
+        let archive = archive.map_err(failed)?.path();
+        let mut unpack = child::command("dpkg-deb");
+        if !child::stream(unpack.arg("-x").arg(&archive).arg(directory))?.success() {
+            return Err(format!("dpkg-deb cannot unpack {}", archive.display()));
+        }
+    }
+    std::fs::remove_dir_all(&archives).map_err(failed)
 }
 
 /// Returns the line with which a person installs the packages.

@@ -1,4 +1,4 @@
-//! The project's commands: `cargo xtask demo`, `check` and `test`, and two that are needed less often.
+//! The project's commands: `cargo xtask demo`, `web`, `check` and `test`, and those that are needed less often.
 //!
 //! This program uses only the standard library, so that it builds within seconds and can prepare a machine for the others.
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a command-line tool prints for its user")]
@@ -20,6 +20,7 @@ mod soak;
 mod steps;
 mod suite;
 mod tally;
+mod web;
 
 use std::process::ExitCode;
 
@@ -27,6 +28,7 @@ const HELP: &str = "\
 Shadowgraph's commands:
 
   cargo xtask demo    render the built-in scene and dump its render graph into out/
+  cargo xtask web     build the page for browsers into out/web; with --open also serve it on this machine
   cargo xtask check   while you work: format, lints, and the tests without a GPU of the packages that
                       changed and of those that depend on them
   cargo xtask test    what a change must pass: format, lints, documentation, every test
@@ -40,7 +42,7 @@ Needed less often:
                       build a directory that measures the GPU of another Linux machine, in out/gpu-report
   cargo xtask noise   write the noise of shaders, crates/lighting/src/blue_noise.bin
 
-On Linux, all but `check`, `gpu-report` and `noise` first make sure of a Vulkan driver, and `test` of the programs that tests start
+On Linux, all but `web`, `check`, `gpu-report` and `noise` first make sure of a Vulkan driver, and `test` of the programs that tests start
 (Xvfb, Graphviz, Chromium). What is missing is installed with apt-get if you are root or sudo needs no
 password; otherwise the line to run is printed.
 
@@ -55,6 +57,8 @@ fn main() -> ExitCode {
             ExitCode::SUCCESS
         }
         ["demo"] => demo::run(),
+        ["web"] => web::run(false),
+        ["web", "--open"] => web::run(true),
         ["docs"] => docs::run(),
         ["gpu-report"] => gpu_report::run(),
         ["noise"] => noise::run(),

@@ -24,9 +24,10 @@ const FACADE: &str = "shadowgraph";
 const SAMPLES: &str = "shadowgraph-samples";
 const QUALITY: &str = "shadowgraph-quality";
 const CLI: &str = "shadowgraph-cli";
+const WEB: &str = "shadowgraph-web";
 
 /// The members that a member may depend on, dependencies of its tests and build scripts included.
-const DEPENDENCIES: [(&str, &[&str]); 14] = [
+const DEPENDENCIES: [(&str, &[&str]); 16] = [
     (CORE, &[]),
     (INSPECT, &[CORE]),
     (SHADERS, &[]),
@@ -37,18 +38,20 @@ const DEPENDENCIES: [(&str, &[&str]); 14] = [
     (FACADE, &[CORE, INSPECT, SHADERS, SCENE, SHADOWS, LIGHTING]),
     (QUALITY, &[CORE, INSPECT, SHADERS, SCENE, SHADOWS, LIGHTING, FACADE, SAMPLES]),
     (CLI, &[INSPECT, FACADE, SAMPLES, QUALITY]),
+    (WEB, &[FACADE, SAMPLES]),
     ("shadowgraph-examples", &[CORE, INSPECT, SHADERS, SCENE, SHADOWS, LIGHTING, FACADE, SAMPLES]),
     ("shadowgraph-tests", &[CORE, INSPECT, SHADERS, SCENE, SHADOWS, LIGHTING, FACADE, SAMPLES, QUALITY]),
     ("custom_technique", &[FACADE, CLI]),
     ("xtask", &[]),
+    ("bundle", &[]),
 ];
 
 /// Dependencies that only tests and examples of a member may use; none of them depends on the member.
 const DEV_DEPENDENCIES: [(&str, &str); 1] = [(FACADE, SAMPLES)];
 
 /// Members that are published, and so may not depend on the others.
-const PUBLISHED: [&str; 10] =
-    [CORE, INSPECT, SHADERS, SCENE, SAMPLES, SHADOWS, LIGHTING, FACADE, QUALITY, CLI];
+const PUBLISHED: [&str; 11] =
+    [CORE, INSPECT, SHADERS, SCENE, SAMPLES, SHADOWS, LIGHTING, FACADE, QUALITY, CLI, WEB];
 
 fn packages() -> BTreeMap<String, Value> {
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());

@@ -12,8 +12,22 @@ use tungstenite::{Message, WebSocket, client};
 
 const BROWSERS: [&str; 3] = ["chromium", "chromium-browser", "google-chrome"];
 
-/// How long the page may take for anything.
+/// How long a page may take for anything.
 const TIMEOUT: Duration = Duration::from_secs(60);
+/// The same with WebGPU: software drivers compile shaders for seconds, and other tests run beside.
+const WEBGPU_TIMEOUT: Duration = Duration::from_secs(240);
+
+/// Options of a browser without WebGPU.
+const PLAIN: [&str; 1] = ["--disable-gpu"];
+/// Options of a browser with WebGPU on the software driver that it brings along.
+const WEBGPU: [&str; 6] = [
+    "--enable-unsafe-webgpu",
+    "--use-webgpu-adapter=swiftshader",
+    "--use-angle=swiftshader",
+    "--use-vulkan=swiftshader",
+    "--enable-features=Vulkan",
+    "--disable-vulkan-surface",
+];
 
 /// Returns the name of a browser; `None` without one.
 pub(crate) fn installed() -> Option<&'static str> {
@@ -27,6 +41,8 @@ pub(crate) fn installed() -> Option<&'static str> {
 pub(crate) struct Page {
     browser: Child,
     socket: WebSocket<TcpStream>,
+    /// How long the page may take for anything.
+    timeout: Duration,
     sent: u64,
     /// What the page complained about.
     faults: Vec<String>,
@@ -36,9 +52,19 @@ pub(crate) struct Page {
 impl Page {
     /// Opens an address; `None` without a browser.
     pub(crate) fn open(url: &str) -> Option<Self> {
+        Self::open_with(url, &PLAIN, TIMEOUT)
+    }
+
+    /// Opens an address in a browser with WebGPU; `None` without a browser.
+    pub(crate) fn open_with_webgpu(url: &str) -> Option<Self> {
+        Self::open_with(url, &WEBGPU, WEBGPU_TIMEOUT)
+    }
+
+    fn open_with(url: &str, options: &[&str], timeout: Duration) -> Option<Self> {
         let data = tempfile::tempdir().unwrap();
         let mut browser = Command::new(installed()?)
-            .args(["--headless=new", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run"])
+            .args(options)
+            .args(["--headless=new", "--no-sandbox", "--disable-quic", "--no-first-run"])
             .args(["--disable-background-networking", "--disable-component-update", "--disable-sync"])
             .args(["--disable-extensions", "--remote-debugging-port=0", "--window-size=1400,900"])
             .arg(format!("--user-data-dir={}", data.path().display()))
@@ -53,9 +79,9 @@ impl Page {
         std::thread::spawn(move || lines.for_each(drop));
         let address = line.split("ws://").nth(1).and_then(|rest| rest.split('/').next()).unwrap();
         let stream = TcpStream::connect(address).unwrap();
-        stream.set_read_timeout(Some(TIMEOUT)).unwrap();
+        stream.set_read_timeout(Some(timeout)).unwrap();
         let (socket, _) = client(target(address), stream).unwrap();
-        let mut page = Self { browser, socket, sent: 0, faults: Vec::new(), _data: data };
+        let mut page = Self { browser, socket, timeout, sent: 0, faults: Vec::new(), _data: data };
         for method in ["Runtime.enable", "Log.enable"] {
             page.call(method, &json!({}));
         }
@@ -72,6 +98,9 @@ impl Page {
             let answer: Value = serde_json::from_str(&text).unwrap();
             match answer["method"].as_str() {
                 Some("Runtime.exceptionThrown" | "Log.entryAdded") => self.faults.push(text.to_string()),
+                Some("Runtime.consoleAPICalled") if answer["params"]["type"] == "error" => {
+                    self.faults.push(text.to_string());
+                }
                 Some(_) => {}
                 None if answer["id"] == self.sent => return answer["result"].clone(),
                 None => {}
@@ -87,6 +116,11 @@ impl Page {
         result["result"]["value"].clone()
     }
 
+    /// Ends the process that draws for all pages of the browser, as a crash of the driver does.
+    pub(crate) fn crash_gpu(&mut self) {
+        self.call("Browser.crashGpuProcess", &json!({}));
+    }
+
     /// Waits until an expression is true.
     pub(crate) fn until(&mut self, expression: &str) {
         let begun = Instant::now();
@@ -94,7 +128,7 @@ impl Page {
         let holds =
             format!("(() => {{ try {{ return Boolean({expression}); }} catch {{ return false; }} }})()");
         while self.value(&holds) != true {
-            assert!(begun.elapsed() < TIMEOUT, "waited too long for {expression}");
+            assert!(begun.elapsed() < self.timeout, "waited too long for {expression}");
             std::thread::sleep(Duration::from_millis(50));
         }
     }
@@ -112,6 +146,12 @@ impl Page {
     /// Closes the page, which must have complained about nothing.
     pub(crate) fn close(self) {
         assert!(self.faults.is_empty(), "{:#?}", self.faults);
+    }
+
+    /// Closes the page, which may have complained about a file that is not there.
+    pub(crate) fn close_after(mut self, missing: &str) {
+        self.faults.retain(|fault| !fault.contains(missing));
+        self.close();
     }
 
     /// Closes the page, which may have complained about connections that are refused.

@@ -8,13 +8,13 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// SwiftShader, which Debian's Chromium brings along.
-const SWIFTSHADER: &str = "/usr/lib/chromium/libvk_swiftshader.so";
+pub(crate) const SWIFTSHADER: &str = "/usr/lib/chromium/libvk_swiftshader.so";
 
 /// Channels of pixels that differ by more are marked.
 const DIFFERENCE: u8 = 8;
 
 /// Writes the manifest of a driver for the Vulkan loader.
-fn manifest(folder: &Path) -> PathBuf {
+pub(crate) fn manifest(folder: &Path) -> PathBuf {
     let file = folder.join("driver.json");
     let text = format!(
         r#"{{"file_format_version": "1.0.0", "ICD": {{"library_path": "{SWIFTSHADER}", "api_version": "1.3.0"}}}}"#

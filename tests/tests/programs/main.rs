@@ -18,3 +18,4 @@ mod pixel;
 mod recordings;
 #[cfg(target_os = "linux")]
 mod view;
+mod web;

@@ -76,7 +76,7 @@ impl Techniques {
     }
 
     /// Adds a technique after checking its name and settings, that its shaders compose, that their bindings and structs
-    /// match what it declares, and that it leaves enough bindings for the rest of a lit pass on every device.
+    /// match what it declares, and that it leaves enough bindings for the rest of a lit pass on every device. In browsers only the name is checked.
     ///
     /// # Errors
     /// [`Error::Technique`] names the technique and what is wrong with it.

@@ -1,0 +1,124 @@
+// Fields for every setting of a JSON Schema. What differs from its default is handed over as JSON.
+
+/** Fills `#fields` with the settings of a schema; `apply` gets JSON, and returns whether it was accepted. */
+export function createSettings(schema, apply) {
+  const root = document.getElementById("fields");
+  const fields = [];
+  const send = () => {
+    const changes = {};
+    for (const field of fields) {
+      const value = field.value();
+      const isChanged = JSON.stringify(value) !== JSON.stringify(field.initial);
+      field.element.classList.toggle("changed", isChanged);
+      if (isChanged) put(changes, field.path, value);
+    }
+    apply(JSON.stringify(changes));
+  };
+  addFields(root, schema, [], fields, send);
+  document.getElementById("reset").onclick = () => {
+    for (const field of fields) field.reset();
+    send();
+  };
+  const filter = document.getElementById("filter");
+  filter.oninput = () => {
+    const words = filter.value.toLowerCase();
+    for (const { element } of fields) element.hidden = !element.textContent.toLowerCase().includes(words);
+    for (const group of root.querySelectorAll("details")) {
+      group.hidden = !group.querySelector(".field:not([hidden])");
+      group.open = words !== "" && !group.hidden;
+    }
+  };
+}
+
+function put(object, path, value) {
+  for (const name of path.slice(0, -1)) object = object[name] ??= {};
+  object[path.at(-1)] = value;
+}
+
+function addFields(parent, schema, path, fields, send) {
+  for (const [name, setting] of Object.entries(schema.properties)) {
+    if (setting.properties) {
+      const group = document.createElement("details");
+      const title = document.createElement("summary");
+      title.textContent = name;
+      group.append(title);
+      parent.append(group);
+      addFields(group, setting, [...path, name], fields, send);
+    } else {
+      parent.append(addField(name, setting, [...path, name], fields, send));
+    }
+  }
+}
+
+function addField(name, schema, path, fields, send) {
+  const element = document.createElement("div");
+  element.className = "field";
+  const input = inputOf(schema);
+  const label = document.createElement("label");
+  label.textContent = name;
+  label.htmlFor = input.element.id = `setting-${path.join("-")}`;
+  const about = document.createElement("p");
+  about.textContent = [schema.description, range(schema)].filter(Boolean).join("; ");
+  // Without a distance of its own, the scene's extent counts.
+  if (path.join() === "distance_m") about.textContent += "; as it is here: as far as the visible scene reaches";
+  element.append(label, input.element, about);
+  input.set(schema.default);
+  input.element.onchange = send;
+  const initial = input.value();
+  fields.push({ element, path, initial, value: input.value, reset: () => input.set(schema.default) });
+  return element;
+}
+
+function range({ minimum, maximum }) {
+  return minimum === undefined ? "" : `${minimum} to ${maximum}`;
+}
+
+/** Returns a form element for the values of a schema, with functions that set and return its value. */
+function inputOf(schema) {
+  const create = properties => Object.assign(document.createElement("input"), properties);
+  const choices = schema.enum ?? constants(schema);
+  if (choices) {
+    const element = document.createElement("select");
+    for (const value of choices) element.append(new Option(text(value), JSON.stringify(value)));
+    return {
+      element,
+      set: value => { element.value = JSON.stringify(value); },
+      value: () => JSON.parse(element.value),
+    };
+  }
+  if (schema.type === "boolean") {
+    const element = create({ type: "checkbox" });
+    return { element, set: value => { element.checked = value; }, value: () => element.checked };
+  }
+  if (schema.type === "number" || schema.type === "integer") {
+    const step = schema.type === "integer" ? 1 : "any";
+    const element = create({ type: "number", min: schema.minimum, max: schema.maximum, step });
+    return {
+      element,
+      set: value => { element.valueAsNumber = value; },
+      value: () => Number.isNaN(element.valueAsNumber) ? element.value : element.valueAsNumber,
+    };
+  }
+  // Lists and values with several shapes are written as JSON; what is no JSON is handed over as text, and refused.
+  const element = create({ type: "text", spellcheck: false });
+  return {
+    element,
+    set: value => { element.value = JSON.stringify(value) ?? ""; },
+    value: () => {
+      try {
+        return element.value === "" ? undefined : JSON.parse(element.value);
+      } catch {
+        return element.value;
+      }
+    },
+  };
+}
+
+/** Returns the values of a schema that allows only constants. */
+function constants({ anyOf, default: initial }) {
+  if (!anyOf?.every(({ const: value, type }) => value !== undefined || type === "null")) return undefined;
+  const values = anyOf.map(({ const: value }) => value ?? null);
+  return values.some(value => JSON.stringify(value) === JSON.stringify(initial)) ? values : undefined;
+}
+
+const text = value => typeof value === "string" ? value : JSON.stringify(value);
