@@ -1,4 +1,4 @@
-// A glTF file among files that were dropped or picked, and those beside it.
+// A glTF file among files that were dropped or picked, and those next to it.
 
 const isScene = path => /\.(glb|gltf)$/i.test(path);
 
@@ -10,8 +10,8 @@ async function read(files) {
   if (!scene) throw new Error("none of these files ends with .glb or .gltf");
   const bytes = async file => new Uint8Array(await file.arrayBuffer());
   const folder = scene.path.slice(0, scene.path.lastIndexOf("/") + 1);
-  const beside = files.filter(file => file !== scene && file.path.startsWith(folder));
-  const others = await Promise.all(beside.map(async ({ path, file }) => [path.slice(folder.length), await bytes(file)]));
+  const near = files.filter(file => file !== scene && file.path.startsWith(folder));
+  const others = await Promise.all(near.map(async ({ path, file }) => [path.slice(folder.length), await bytes(file)]));
   return { name: scene.file.name, bytes: await bytes(scene.file), others };
 }
 

@@ -59,7 +59,7 @@ function addField(name, schema, path, fields, send) {
   label.htmlFor = input.element.id = `setting-${path.join("-")}`;
   const about = document.createElement("p");
   about.textContent = [schema.description, range(schema)].filter(Boolean).join("; ");
-  // Without a distance of its own, the scene's extent counts.
+  // Without a distance, the extent of the scene counts.
   if (path.join() === "distance_m") about.textContent += "; as it is here: as far as the visible scene reaches";
   element.append(label, input.element, about);
   input.set(schema.default);

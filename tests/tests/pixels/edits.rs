@@ -53,7 +53,7 @@ fn frames_equal_new_scenes(technique: TechniqueKind, frames: u32) {
 
 #[test]
 fn random_edits_are_drawn_like_a_new_scene() {
-    frames_equal_new_scenes(PCF, 40);
+    frames_equal_new_scenes(PCF, 20);
 }
 
 #[test]

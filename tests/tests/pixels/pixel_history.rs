@@ -20,8 +20,8 @@ use crate::planted::from_env;
 use crate::stage::{gpu, view};
 
 /// Pixels of the demo and of a real scene, which has more lights and takes longer, if `SHADOWGRAPH_SOAK` is not set.
-const PIXELS: u32 = 30;
-const REAL_PIXELS: u32 = 6;
+const PIXELS: u32 = 12;
+const REAL_PIXELS: u32 = 3;
 
 /// Hits whose distances differ by less than this, relative to the distance or to 1 m, are the same.
 const SAME_DISTANCE: f64 = 2e-3;

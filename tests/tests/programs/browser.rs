@@ -14,7 +14,7 @@ const BROWSERS: [&str; 3] = ["chromium", "chromium-browser", "google-chrome"];
 
 /// How long a page may take for anything.
 const TIMEOUT: Duration = Duration::from_secs(60);
-/// The same with WebGPU: software drivers compile shaders for seconds, and other tests run beside.
+/// The same with WebGPU: software drivers compile shaders for seconds, and other tests run at the same time.
 const WEBGPU_TIMEOUT: Duration = Duration::from_secs(240);
 
 /// Options of a browser without WebGPU.

@@ -11,7 +11,7 @@ use std::process::ExitCode;
 
 /// Where the page is written.
 const DIRECTORY: &str = "out/web";
-/// The files of the page beside its modules.
+/// The files of the page without its modules.
 const PAGE: &str = "crates/web/page";
 /// What the WebAssembly may have compressed, bytes.
 const MAX_COMPRESSED: u64 = 4 << 20;

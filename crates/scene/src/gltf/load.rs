@@ -100,7 +100,7 @@ pub fn load_bytes(
         .map_err(|error| invalid(Path::new(name), error))
 }
 
-/// Returns the paths of the files that a glTF or GLB file in memory refers to, relative to it and with `/`: what [`load_bytes`] needs beside it.
+/// Returns the paths of the files that a glTF or GLB file in memory refers to, relative to it and with `/`: what [`load_bytes`] needs besides it.
 /// `name` is for errors.
 ///
 /// ```

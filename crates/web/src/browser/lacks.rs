@@ -7,7 +7,7 @@ const FEATURES: [(wgpu::Features, &str); 4] = [
     (wgpu::Features::TIMESTAMP_QUERY, "no times of passes: the browser has no timestamp queries"),
     (
         wgpu::Features::DEPTH_CLIP_CONTROL,
-        "shadow casters before the near plane are clamped in the vertex shader: no depth clip control",
+        "shadow casters in front of the near plane are clamped in the vertex shader: no depth clip control",
     ),
     (
         wgpu::Features::INDIRECT_FIRST_INSTANCE,
@@ -20,7 +20,7 @@ const FEATURES: [(wgpu::Features, &str); 4] = [
 ];
 
 /// Returns what the browser of an adapter lacks, a line each.
-pub(super) fn of(adapter: &wgpu::Adapter) -> Vec<String> {
+pub(super) fn missing_in(adapter: &wgpu::Adapter) -> Vec<String> {
     let features = adapter.features();
     let compressed = wgpu::Features::TEXTURE_COMPRESSION_ASTC | wgpu::Features::TEXTURE_COMPRESSION_ETC2;
     let missing = FEATURES.iter().filter(|(feature, _)| !features.contains(*feature));

@@ -64,7 +64,7 @@ async fn load(url: &str, progress: Option<&Function>) -> Result<Model, Error> {
     let bytes = fetch(url, &mut report(name.clone())).await?;
     let mut files = Vec::new();
     for path in referenced_files(&name, &bytes)? {
-        let url = beside(url, &path)?;
+        let url = sibling_url(url, &path)?;
         let bytes = fetch(&url, &mut report(path.clone())).await?;
         files.push((path, bytes));
     }
@@ -72,7 +72,7 @@ async fn load(url: &str, progress: Option<&Function>) -> Result<Model, Error> {
 }
 
 /// Returns the address of a file by its path relative to another one.
-fn beside(url: &str, path: &str) -> Result<String, Error> {
+fn sibling_url(url: &str, path: &str) -> Result<String, Error> {
     let failed = |error: JsValue| Error::Fetch { url: url.into(), reason: super::reason(&error) };
     let page = web_sys::window().and_then(|window| window.location().href().ok()).unwrap_or_default();
     let base = Url::new_with_base(url, &page).map_err(failed)?;

@@ -240,7 +240,7 @@ impl Viewer {
     /// Returns what this browser lacks, and what that changes, a line each.
     #[must_use]
     pub fn lacks(&self) -> Vec<String> {
-        super::lacks::of(self.borrow().canvas.adapter())
+        super::lacks::missing_in(self.borrow().canvas.adapter())
     }
 
     /// Returns why the device is lost, such as after a crash of the driver; `undefined` while it is not.

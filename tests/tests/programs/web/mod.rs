@@ -24,7 +24,7 @@ const MAX_DIFFERENT: f64 = 1e-3;
 /// Modifiers that are compared besides the techniques.
 const MODIFIED: [&str; 2] = ["pcf+contact", "pcf+screen"];
 
-/// A page with a canvas that draws only when it is asked to.
+/// A page with a canvas that draws only on request.
 const CANVAS: &str = r#"<!doctype html>
 <canvas width="256" height="144"></canvas>
 <script type="module">
@@ -173,9 +173,10 @@ fn web_frame_ms(page: &mut Page) -> f64 {
 
 /// Returns the time of a frame of the program, milliseconds.
 fn native_frame_ms(folder: &Path) -> f64 {
+    let program = program().unwrap();
     let time = |frames: u32| {
         let begun = std::time::Instant::now();
-        let mut command = Command::new(program().unwrap());
+        let mut command = Command::new(program);
         let [width, height] = SIZE_PX;
         command.args([
             "render",
@@ -198,7 +199,7 @@ fn native_frame_ms(folder: &Path) -> f64 {
     (time(1 + FRAMES) - one) / f64::from(FRAMES)
 }
 
-/// Other tests run beside this one, so the limit is high: alone, the page needs at most 1.3 times as long.
+/// Other tests run at the same time, so the limit is high: alone, the page needs at most 1.3 times as long.
 #[test]
 fn a_frame_takes_little_longer_than_in_the_program() {
     if !has_swiftshader() {
@@ -234,7 +235,7 @@ fn the_page_has_a_control_for_everything() {
             json!(name)
         )
     };
-    page.value(&drop("cat.png", "a picture of a cat"));
+    page.value(&drop("cat.png", "a drawing of a cat"));
     page.until("document.getElementById('status').textContent.includes('cat.png: file: is not glTF')");
     // And one that is.
     page.value(&drop("empty.gltf", r#"{"asset": {"version": "2.0"}, "scenes": [{}]}"#));
@@ -303,12 +304,12 @@ fn a_page_that_loses_its_device_opens_another_one() {
 }
 
 #[test]
-fn a_browser_without_webgpu_is_told_so() {
+fn a_browser_without_webgpu_is_an_error_of_one_line() {
     let Some(directory) = built() else { return };
     let address = serve(Files { directory, memory: HashMap::new() });
     let Some(mut page) = Page::open(&format!("{address}/index.html")) else { return };
     page.until("document.getElementById('status').textContent.includes('this browser has no WebGPU')");
-    page.close();
+    page.close_after("No available adapters.");
 }
 
 #[test]
