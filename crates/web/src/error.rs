@@ -17,7 +17,7 @@ pub enum Error {
     /// The settings are not JSON, or not those of shadows.
     #[error("settings: {0}")]
     Settings(String),
-    /// Only one image can be read at a time.
+    /// There is no image to read.
     #[error("the canvas cannot be read: {0}")]
     Pixels(String),
     /// An error of the scene's file.

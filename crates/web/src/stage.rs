@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use shadowgraph::core::{Executed, Plan, Timer};
+use shadowgraph::core::{Plan, Timer};
 use shadowgraph::options::{Aov, ShadowDistance};
 use shadowgraph::pipelines::Parameters;
 use shadowgraph::scene::AnimationSelection;
@@ -35,24 +35,16 @@ struct View {
     renderer: Option<Renderer>,
     /// The pipeline that the renderer was requested for, and why there is none.
     requested: Option<(Pipeline, Result<(), String>)>,
-    /// The settings of the last frame, whose shadow distance the next one follows.
-    shadows: ShadowSettings,
+    /// The shadow distance of the last frame, which the next one follows.
+    distance_m: f32,
 }
 
 /// A frame that was recorded.
 pub struct Recorded {
-    /// The executed frame.
-    pub executed: Executed,
+    /// The plan.
+    pub plan: Arc<Plan>,
     /// What the GPU counts, if it was measured.
     pub counts: Option<PendingCounts>,
-}
-
-impl Recorded {
-    /// Returns the plan.
-    #[must_use]
-    pub fn plan(&self) -> Arc<Plan> {
-        self.executed.shared_plan()
-    }
 }
 
 impl Stage {
@@ -219,28 +211,26 @@ impl Stage {
     ) -> Result<Recorded, Error> {
         let Self { model, orbit, pipeline, settings, distance, first, second, .. } = self;
         let view = second.as_mut().filter(|_| index > 0).unwrap_or(first);
-        view.follow(gpu, model, pipeline)?;
         let size_px = [target.width(), target.height()];
-        let shadows = ShadowSettings { distance_m: view.shadows.distance_m, ..settings.clone() };
+        let shadows = ShadowSettings { distance_m: view.distance_m, ..settings.clone() };
         let options = ViewOptions { camera: orbit.camera().clone(), size_px, shadows };
         let options = options.with_shadow_distance(*distance, &model.scene);
-        view.shadows = options.shadows.clone();
-        let Some(renderer) = &mut view.renderer else {
-            return Err(shadowgraph::Error::Gpu("nothing was drawn before".into()).into());
-        };
-        Ok(match timer {
+        view.distance_m = options.shadows.distance_m;
+        let renderer = view.renderer(gpu, model, pipeline)?;
+        let (executed, counts) = match timer {
             Some(timer) => {
                 let (executed, counts) = renderer.record_measured(gpu, encoder, target, &options, timer)?;
-                Recorded { executed, counts: Some(counts) }
+                (executed, Some(counts))
             }
-            None => Recorded { executed: renderer.record(gpu, encoder, target, &options)?, counts: None },
-        })
+            None => (renderer.record(gpu, encoder, target, &options)?, None),
+        };
+        Ok(Recorded { plan: executed.shared_plan(), counts })
     }
 }
 
 impl View {
     fn new(technique: Technique) -> Self {
-        Self { technique, renderer: None, requested: None, shadows: ShadowSettings::default() }
+        Self { technique, renderer: None, requested: None, distance_m: ShadowSettings::default().distance_m }
     }
 
     fn set_technique(&mut self, technique: Technique) {
@@ -249,20 +239,23 @@ impl View {
         }
     }
 
-    /// Creates the renderer if there is none for these choices. A failure is returned again until a choice changes.
-    fn follow(&mut self, gpu: &Gpu, model: &Model, pipeline: &Pipeline) -> Result<(), Error> {
-        if let Some((_, created)) = self.requested.as_ref().filter(|(last, _)| last == pipeline) {
-            return created.clone().map_err(|reason| shadowgraph::Error::Gpu(reason).into());
+    /// Returns the renderer, which is created if there is none for these choices. A failure is returned again until a choice changes.
+    fn renderer(&mut self, gpu: &Gpu, model: &Model, pipeline: &Pipeline) -> Result<&mut Renderer, Error> {
+        if self.requested.as_ref().is_none_or(|(last, _)| last != pipeline) {
+            let config = RenderConfig {
+                technique: Some(self.technique),
+                pipeline: pipeline.clone(),
+                ..RenderConfig::default()
+            };
+            let created = Renderer::with_config(gpu, model.scene.clone(), &model.camera, Aov::Color, config);
+            let failed = created.as_ref().err().map(ToString::to_string);
+            self.requested = Some((pipeline.clone(), failed.map_or(Ok(()), Err)));
+            self.renderer = Some(created?);
         }
-        let config = RenderConfig {
-            technique: Some(self.technique),
-            pipeline: pipeline.clone(),
-            ..RenderConfig::default()
-        };
-        let created = Renderer::with_config(gpu, model.scene.clone(), &model.camera, Aov::Color, config);
-        let failed = created.as_ref().err().map(ToString::to_string);
-        self.requested = Some((pipeline.clone(), failed.map_or(Ok(()), Err)));
-        self.renderer = Some(created?);
-        Ok(())
+        match (&self.requested, &mut self.renderer) {
+            (Some((_, Ok(()))), Some(renderer)) => Ok(renderer),
+            (Some((_, Err(reason))), _) => Err(shadowgraph::Error::Gpu(reason.clone()).into()),
+            _ => Err(shadowgraph::Error::Gpu("there is no renderer".into()).into()),
+        }
     }
 }

@@ -341,7 +341,7 @@ impl State {
             let timer = timer.as_mut().filter(|_| index == 0);
             let recorded = self.stage.record(gpu, &mut encoder, index, image, timer)?;
             if index == 0 {
-                self.measured.plan = Some(recorded.plan());
+                self.measured.plan = Some(recorded.plan);
                 counts = recorded.counts;
             }
         }
