@@ -14,7 +14,7 @@ use shadowgraph::shadows::{EVSM, NONE, PCF, PCSS, RAYTRACED, Technique, Techniqu
 use shadowgraph::{Gpu, RenderConfig, RenderedImage, Renderer, ViewOptions};
 use shadowgraph_samples::demo::demo_scene;
 
-const CELL_PX: [u32; 2] = [320, 160];
+const CELL_PX: [u32; 2] = [240, 120];
 const GAP_PX: u32 = 4;
 const MIXES: [&str; 5] = ["sun", "spots", "points", "several suns", "no light"];
 
@@ -89,7 +89,7 @@ fn images(gpu: &Gpu, config: RenderConfig, size_px: [u32; 2], is_truth: bool) ->
     let camera = camera(DVec3::new(-4.8, 4.2, 15.0), DVec3::new(-5.3, 0.2, 9.4));
     let options = ViewOptions { size_px, ..view(camera, 80.0) };
     let mut options = if is_truth { hard(&options) } else { options };
-    options.shadows.cascades.map_size_px = 2048;
+    options.shadows.cascades.map_size_px = 1024;
     let own = scene.lights().to_vec();
     let mut renderer = Renderer::with_config(gpu, scene, &options.camera, Aov::Color, config).unwrap();
     let mut render = |mix: &&str| {

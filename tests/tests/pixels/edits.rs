@@ -33,7 +33,7 @@ fn scene() -> Scene {
 fn frames_equal_new_scenes(technique: TechniqueKind, frames: u32) {
     let Some(gpu) = gpu() else { return };
     let camera = camera(DVec3::new(4.0, 5.0, 7.0), DVec3::new(0.0, 0.3, -0.5));
-    let options = ViewOptions { size_px: [96, 54], ..hard(&view(camera, 40.0)) };
+    let options = ViewOptions { size_px: [96, 54], ..with_coarse_maps(hard(&view(camera, 40.0))) };
     let create = || Renderer::with_config(gpu, scene(), &options.camera, Aov::Color, technique).unwrap();
     let (mut edited, mut fresh) = (create(), create());
     let mut random = Random::new(3);

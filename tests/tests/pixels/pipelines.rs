@@ -1,7 +1,7 @@
 //! Pipelines: each renders the same shadows, from files and from scripts, with built-in and custom nodes.
 
 use crate::scenes::{RealScene, real_scenes};
-use crate::stage::gpu;
+use crate::stage::{gpu, with_coarse_maps};
 use shadowgraph::options::{Aov, ShadowDistance};
 use shadowgraph::pipelines::{BUILT_IN, Parameters};
 use shadowgraph::scene::Scene;
@@ -10,8 +10,8 @@ use shadowgraph_samples::demo::demo_scene;
 
 fn options(scene: &Scene, size_px: [u32; 2]) -> ViewOptions {
     let camera = scene.cameras.first().cloned().unwrap_or_else(|| scene.framing_camera(16.0 / 9.0));
-    ViewOptions { camera, size_px, shadows: Default::default() }
-        .with_shadow_distance(ShadowDistance::Auto, scene)
+    let options = ViewOptions { camera, size_px, shadows: Default::default() };
+    with_coarse_maps(options.with_shadow_distance(ShadowDistance::Auto, scene))
 }
 
 fn render(gpu: &Gpu, scene: &Scene, aov: Aov, config: RenderConfig, size_px: [u32; 2]) -> RenderedImage {

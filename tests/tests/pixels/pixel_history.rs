@@ -251,7 +251,7 @@ fn facts_of_each_technique_agree_with_images_and_with_rays() {
         let mut inspector = ShadowInspector::new(gpu, &scene, &options, &config).unwrap();
         let mut random = Random::new(2);
         let (mut with_facts, mut compared) = (0, 0);
-        for _ in 0..20 {
+        for _ in 0..10 {
             let pixel = [random.below(160) as u32, random.below(90) as u32];
             let lights = inspector.shadows_at(pixel).unwrap().lights;
             for light in lights.iter().filter(|light| light.reach == Reachability::Reached) {
@@ -262,7 +262,7 @@ fn facts_of_each_technique_agree_with_images_and_with_rays() {
         }
         println!("{name}: {with_facts} lights with facts, {compared} compared");
         assert_eq!(with_facts > 0, name != "none", "{name}");
-        assert!(compared > 5 || matches!(name, "none" | "raytraced" | "evsm" | "msm"), "{name}: {compared}");
+        assert!(compared > 2 || matches!(name, "none" | "raytraced" | "evsm" | "msm"), "{name}: {compared}");
     }
 }
 
@@ -286,5 +286,6 @@ fn visibilities_and_blockers_of_a_real_scene_are_those_of_images_and_of_rays() {
     };
     let scene = gltf::load(&scenes.join("kaykit_dungeon_hall.glb")).unwrap();
     let camera = scene.cameras.first().cloned().unwrap_or_else(|| scene.framing_camera(16.0 / 9.0));
-    assert_shadows(gpu, ("kaykit_dungeon_hall", &scene), &view(camera, 60.0), REAL_PIXELS);
+    let options = ViewOptions { size_px: [160, 90], ..view(camera, 60.0) };
+    assert_shadows(gpu, ("kaykit_dungeon_hall", &scene), &options, REAL_PIXELS);
 }

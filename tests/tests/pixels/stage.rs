@@ -191,6 +191,12 @@ pub(crate) fn view(camera: Camera, distance_m: f32) -> ViewOptions {
     ViewOptions { camera, size_px: SIZE_PX, shadows }
 }
 
+/// Makes shadow maps small, for images that are compared with one another.
+pub(crate) fn with_coarse_maps(mut options: ViewOptions) -> ViewOptions {
+    (options.shadows.cascades.map_size_px, options.shadows.atlas.map_size_px) = (512, 1024);
+    options
+}
+
 pub(crate) fn draw(gpu: &Gpu, scene: Scene, aov: Aov, options: &ViewOptions) -> RenderedFrame {
     draw_with(gpu, &scene, aov, options, PCF)
 }

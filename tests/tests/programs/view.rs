@@ -134,7 +134,7 @@ mod controls {
 }
 
 #[test]
-fn a_minute_of_play_and_the_controls_of_the_animation_and_of_the_sun() {
+fn an_animation_plays_and_the_panel_controls_it_and_the_sun() {
     let Some(display) = Display::open() else { return };
     let dir = tempfile::tempdir().unwrap();
     let mut file = (SKINNED.file)();
@@ -146,7 +146,7 @@ fn a_minute_of_play_and_the_controls_of_the_animation_and_of_the_sun() {
 
     let started = Instant::now();
     let (mut poses, mut last) = (0, scene(&view.keep("10 play")));
-    while started.elapsed() < Duration::from_secs(60) {
+    while started.elapsed() < Duration::from_secs(20) {
         let before = last.clone();
         view.until("the next pose", |view| {
             last = scene(&view.screenshot());
@@ -154,7 +154,7 @@ fn a_minute_of_play_and_the_controls_of_the_animation_and_of_the_sun() {
         });
         poses += 1;
     }
-    assert!(poses > 10, "{poses} poses in a minute");
+    assert!(poses > 3, "{poses} poses in 20 s");
 
     // The times in the panel change, but the scene does not, once the frames in flight are shown.
     let stands = |view: &mut View, what: &str| {

@@ -95,25 +95,29 @@ impl Tables {
     /// Writes the mean of four pixels: two in `top`, two in `bottom`.
     fn mean(&self, encoding: Encoding, top: &[u8], bottom: &[u8], out: &mut [u8]) {
         let (Ok(top), Ok(bottom)) = (<&[u8; 8]>::try_from(top), <&[u8; 8]>::try_from(bottom)) else { return };
-        let sum = |c: usize| {
-            u32::from(top[c]) + u32::from(top[c + 4]) + u32::from(bottom[c]) + u32::from(bottom[c + 4])
+        let bytes = |channel: usize| [top[channel], top[channel + 4], bottom[channel], bottom[channel + 4]];
+        let light = |byte: u8| self.light[usize::from(byte)];
+        let plain = |channel: usize| {
+            let [a, b, c, d] = bytes(channel);
+            ((u32::from(a) + u32::from(b) + u32::from(c) + u32::from(d) + 2) / 4) as u8
         };
-        let plain = |c: usize| ((sum(c) + 2) / 4) as u8;
-        let alphas = [top[3], top[7], bottom[3], bottom[7]];
-        let light =
-            |c: usize| [top[c], top[c + 4], bottom[c], bottom[c + 4]].map(|b| self.light[usize::from(b)]);
+        let alphas = bytes(3);
         let mean = match encoding {
             Encoding::Linear | Encoding::Alpha => [plain(0), plain(1), plain(2), plain(3)],
             Encoding::Srgb if alphas == [alphas[0]; 4] => {
-                let even = |c: usize| self.byte[(light(c).iter().sum::<u32>() / 16) as usize];
+                let even = |channel: usize| {
+                    let [a, b, c, d] = bytes(channel);
+                    self.byte[((light(a) + light(b) + light(c) + light(d)) / 16) as usize]
+                };
                 [even(0), even(1), even(2), alphas[0]]
             }
             Encoding::Srgb => {
-                let weights = alphas.map(u32::from);
+                let [of_a, of_b, of_c, of_d] = alphas.map(u32::from);
                 // Not all alphas are equal, so one is above 0.
-                let total: u32 = weights.iter().sum();
-                let weighted = |c: usize| {
-                    let sum: u32 = light(c).iter().zip(weights).map(|(light, weight)| light * weight).sum();
+                let total = of_a + of_b + of_c + of_d;
+                let weighted = |channel: usize| {
+                    let [a, b, c, d] = bytes(channel);
+                    let sum = light(a) * of_a + light(b) * of_b + light(c) * of_c + light(d) * of_d;
                     self.byte[(sum / (total * 4)) as usize]
                 };
                 [weighted(0), weighted(1), weighted(2), plain(3)]

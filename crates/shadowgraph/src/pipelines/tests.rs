@@ -9,7 +9,7 @@ use crate::{Gpu, RenderConfig, Renderer, ViewOptions};
 
 #[test]
 fn every_built_in_pipeline_has_a_plan_with_every_kind_of_technique() {
-    let (gpu, techniques) = (Gpu::noop().unwrap(), Techniques::built_in());
+    let (gpu, techniques, scene) = (Gpu::noop().unwrap(), Techniques::built_in(), demo_scene());
     for name in BUILT_IN {
         let pipeline: Pipeline = name.parse().unwrap();
         assert!(!pipeline.about().is_empty(), "{name}");
@@ -23,9 +23,8 @@ fn every_built_in_pipeline_has_a_plan_with_every_kind_of_technique() {
             let technique = Some(techniques.find(technique).unwrap());
             let config =
                 RenderConfig { technique, pipeline: pipeline.clone(), samples, ..RenderConfig::default() };
-            let scene = demo_scene();
             let camera = scene.cameras[0].clone();
-            let renderer = Renderer::with_config(&gpu, scene, &camera, aov, config).unwrap();
+            let renderer = Renderer::with_config(&gpu, scene.clone(), &camera, aov, config).unwrap();
             let options = ViewOptions { camera, size_px: [64, 36], shadows: ShadowSettings::default() };
             let (plan, _) = renderer.plan(&options).unwrap();
             assert!(!plan.order().is_empty(), "{name}");
@@ -39,7 +38,7 @@ fn every_pipeline_and_technique_runs_with_the_default_limits_and_features_of_web
     let opened = adapter.request_device(&wgpu::DeviceDescriptor::default());
     let (device, queue) = pollster::block_on(opened).unwrap();
     let gpu = Gpu { device, queue, adapter: adapter.get_info() };
-    let techniques = Techniques::built_in();
+    let (techniques, scene) = (Techniques::built_in(), demo_scene());
     let kinds = techniques.kinds().iter().map(|kind| (kind.name.to_owned(), "minimal_lit"));
     let modified = ["pcf+contact", "virtual+screen"].map(|name| (name.to_owned(), "forward"));
     let others = BUILT_IN.iter().flat_map(|&name| ["pcf", "virtual"].map(|kind| (kind.to_owned(), name)));
@@ -47,10 +46,9 @@ fn every_pipeline_and_technique_runs_with_the_default_limits_and_features_of_web
         let pipeline = name.parse().unwrap();
         let technique = Some(techniques.find(&technique).unwrap());
         let config = RenderConfig { technique, pipeline, ..RenderConfig::default() };
-        let scene = demo_scene();
         let camera = scene.cameras[0].clone();
         let drawn = gpu.checked(|| {
-            let mut renderer = Renderer::with_config(&gpu, scene, &camera, Aov::Color, config)?;
+            let mut renderer = Renderer::with_config(&gpu, scene.clone(), &camera, Aov::Color, config)?;
             let options = ViewOptions { camera, size_px: [64, 36], shadows: ShadowSettings::default() };
             renderer.draw(&gpu, &options)
         });

@@ -107,7 +107,7 @@ impl View {
                 panic!("waiting for {what}, the program ended with {status}: {}", self.errors());
             }
             assert!(started.elapsed() < TIMEOUT, "waited too long for {what}");
-            std::thread::sleep(Duration::from_millis(100));
+            std::thread::sleep(Duration::from_millis(200));
         }
     }
 
