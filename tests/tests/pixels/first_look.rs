@@ -7,6 +7,7 @@ use shadowgraph::options::{Aov, GroundChoice, ShadowDistance, SunChoice};
 use shadowgraph::scene::{Aabb, Camera, Light, Material, Mesh, Projection, Scene};
 use shadowgraph::shadows::{NONE, PCF, RAYTRACED, SDSM, Technique, VIRTUAL};
 use shadowgraph::{Background, Gpu, Pipeline, RenderConfig, RenderedImage, Renderer, ViewOptions};
+use std::collections::HashSet;
 
 const SIZE_PX: [u32; 2] = [320, 180];
 const ASPECT: f64 = 16.0 / 9.0;
@@ -47,6 +48,8 @@ fn real_scenes_are_exposed_well_and_show_their_shadows() {
         let white = share(&image, |[r, g, b, _]| r.max(g).max(b) == 255);
         let black = share(&image, |[r, g, b, _]| r.max(g).max(b) == 0);
         let in_shadow = shadowed(&image, &lit);
+        let colors: HashSet<_> = pixels(&image).collect();
+        assert!(colors.len() > 16, "{name} is more than a background: {} colours", colors.len());
         println!("{name}: white {white:.4}, black {black:.4}, in shadow {in_shadow:.4}");
         assert!(white + black < 0.02, "{name}: {white} white, {black} black");
         assert!(in_shadow > 0.002, "{name}: {in_shadow} in shadow");

@@ -115,7 +115,7 @@ fn penumbrae_of_pcss_and_of_several_rays_are_closer_to_ground_truth_than_those_o
     std::fs::write(&cases, columns).unwrap();
     let cases = cases.to_str().unwrap();
     let techniques = ["--techniques", "pcf,pcss,raytraced"];
-    let arguments = [&["--quick", "--size", "480x270", "--cases", cases][..], &techniques, &["-o"]].concat();
+    let arguments = [&["--quick", "--size", "640x360", "--cases", cases][..], &techniques, &["-o"]].concat();
     let Some(output) = measure(&[&arguments[..], &[out.to_str().unwrap()]].concat()) else { return };
     assert!(output.status.success(), "{}", text(&output.stderr));
     let json = std::fs::read_to_string(out.join("report.json")).unwrap();

@@ -9,7 +9,7 @@ use base64::prelude::BASE64_STANDARD;
 use image::RgbaImage;
 use serde_json::json;
 use server::{Files, serve};
-use shadowgraph::shadows::Techniques;
+use shadowgraph::shadows::{RAYTRACED, Techniques};
 use shadowgraph_tests::{animated, copies, features, program, repository, shared, skip};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -17,6 +17,8 @@ use std::process::Command;
 
 /// Width and height of the compared images, pixels.
 const SIZE_PX: [u32; 2] = [256, 144];
+/// Those of images that take a software driver seconds.
+const SMALL_PX: [u32; 2] = [128, 72];
 /// Pixels of which a channel differs by more are counted.
 const DIFFERENCE: u8 = 8;
 /// The part of the pixels that may.
@@ -77,16 +79,15 @@ fn open_canvas(files: impl IntoIterator<Item = (&'static str, Vec<u8>)>) -> Opti
 }
 
 /// Returns the image that the page shows.
-fn image(page: &mut Page) -> RgbaImage {
+fn image(page: &mut Page, [width, height]: [u32; 2]) -> RgbaImage {
+    page.value(&format!("viewer.resize({width}, {height})"));
     let text = page.value("image()");
     let bytes = BASE64_STANDARD.decode(text.as_str().unwrap()).unwrap();
-    let [width, height] = SIZE_PX;
     RgbaImage::from_raw(width, height, bytes).unwrap()
 }
 
 /// Renders with the program `shadowgraph`, on the driver that Chromium brings along.
-fn render(arguments: &[&str], folder: &Path, file: &str) {
-    let [width, height] = SIZE_PX;
+fn render(arguments: &[&str], [width, height]: [u32; 2], folder: &Path, file: &str) {
     let mut command = Command::new(program().unwrap());
     command.args(["render", "--size", &format!("{width}x{height}"), "-o"]).arg(folder.join(file));
     let output = command.args(arguments).env("VK_DRIVER_FILES", drivers::manifest(folder)).output().unwrap();
@@ -94,8 +95,8 @@ fn render(arguments: &[&str], folder: &Path, file: &str) {
 }
 
 /// Returns the image of the program.
-fn native(folder: &Path, arguments: &[&str]) -> RgbaImage {
-    render(arguments, folder, "native.png");
+fn native(folder: &Path, arguments: &[&str], size_px: [u32; 2]) -> RgbaImage {
+    render(arguments, size_px, folder, "native.png");
     image::open(folder.join("native.png")).unwrap().to_rgba8()
 }
 
@@ -129,15 +130,16 @@ fn every_technique_draws_the_image_of_the_program() {
     let folder = tempfile::tempdir().unwrap();
     let techniques = Techniques::built_in();
     let names: Vec<_> = techniques.kinds().iter().map(|kind| kind.name).chain(MODIFIED).collect();
+    let size_px = |name: &str| if name == RAYTRACED.name { SMALL_PX } else { SIZE_PX };
     std::thread::scope(|scope| {
         // Both mostly compile shaders, on one thread each.
         let natives = scope.spawn(|| {
-            let of = |name: &&str| native(folder.path(), &["--technique", name]);
+            let of = |name: &&str| native(folder.path(), &["--technique", name], size_px(name));
             names.iter().map(of).collect::<Vec<_>>()
         });
         let mut of = |name: &&str| {
             page.value(&format!("viewer.technique = {}", json!(name)));
-            image(&mut page)
+            image(&mut page, size_px(name))
         };
         let images: Vec<_> = names.iter().map(&mut of).collect();
         for (name, (web, native)) in names.iter().zip(images.iter().zip(&natives.join().unwrap())) {
@@ -171,7 +173,8 @@ fn files_of_the_web_draw_the_images_of_the_program() {
         ));
         let file = folder.path().join(name);
         std::fs::write(&file, bytes).unwrap();
-        assert_same(name, &image(&mut page), &native(folder.path(), &[file.to_str().unwrap()]));
+        let native = native(folder.path(), &[file.to_str().unwrap()], SIZE_PX);
+        assert_same(name, &image(&mut page, SIZE_PX), &native);
     }
     assert_eq!(page.value("parts.every(([part]) => part >= 0 && part <= 1) && parts[0][1]"), "vase.glb");
     let missing = page.value("Model.fetch('none.glb').then(() => 'loaded', error => error.message)");
@@ -195,7 +198,7 @@ fn web_frame_ms(page: &mut Page) -> f64 {
 
 /// Returns the mean time of a frame of the program after the first one, milliseconds, from the times at which images are written.
 fn native_frame_ms(folder: &Path) -> f64 {
-    render(&["--fps", "10000", "--frames", &(1 + FRAMES).to_string()], folder, "%04d.png");
+    render(&["--fps", "10000", "--frames", &(1 + FRAMES).to_string()], SIZE_PX, folder, "%04d.png");
     let written = |frame: u32| folder.join(format!("{frame:04}.png")).metadata().unwrap().modified().unwrap();
     written(FRAMES).duration_since(written(0)).unwrap().as_secs_f64() * 1e3 / f64::from(FRAMES)
 }
