@@ -19,11 +19,12 @@ function say(text, isError = false) {
   $("status").classList.toggle("error", isError);
 }
 
-/** Runs a choice of the user; an error is shown in `place`, or over the view. */
+/** Runs a choice of the user; an error is shown in `place`, or over the view, until a choice succeeds. */
 function attempt(work, place) {
   try {
     work();
     if (place) place.textContent = "";
+    else if ($("status").classList.contains("error")) say("");
     changed();
     return true;
   } catch (error) {
@@ -89,10 +90,9 @@ function option(name, summary, group) {
 }
 
 function chooseTechnique() {
-  const added = [...$("modifiers").querySelectorAll("input:checked")].map(box => `+${box.value}`).join("");
-  const chosen = $("technique").selectedOptions[0];
-  $("technique-hint").textContent = chosen.title;
-  attempt(() => { viewer.technique = chosen.value + added; });
+  const chosen = ["technique", "modifier"].map(id => $(id).selectedOptions[0]);
+  $("technique-hint").textContent = chosen.map(({ title }) => title).filter(Boolean).join("; ");
+  attempt(() => { viewer.technique = chosen.map(({ value }) => value).join(""); });
   showNames();
 }
 
@@ -121,13 +121,8 @@ function fillTechniques() {
     option(name, summary, $("technique"));
     option(name, summary, $("compared"));
   }
-  for (const { name, summary } of modifiers) {
-    const label = document.createElement("label");
-    const box = Object.assign(document.createElement("input"), { type: "checkbox", value: name, onchange: chooseTechnique });
-    label.append(box, ` + ${name}`);
-    label.title = summary;
-    $("modifiers").append(label, document.createElement("br"));
-  }
+  $("modifier").append(new Option("alone", ""));
+  for (const { name, summary } of modifiers) option(`+${name}`, summary, $("modifier"));
   $("technique").value = viewer.technique;
   $("technique-hint").textContent = $("technique").selectedOptions[0].title;
 }
@@ -151,6 +146,12 @@ function applyPipeline() {
   const isValid = attempt(() => { warnings = viewer.setPipelineText("pipeline", $("text").value); }, $("pipeline-error"));
   if (isValid) $("pipeline-error").textContent = warnings.join("\n");
   const line = Number(/^pipeline:(\d+):/.exec($("pipeline-error").textContent)?.[1] ?? 0);
+  if (line > 0) {
+    const height = $("text").scrollHeight / $("text").value.split("\n").length;
+    $("text").scrollTop = (line - 3) * height;
+  }
+  // The text is none of the built-in ones.
+  if (isValid && $("text").value !== Viewer.pipelineText($("pipelines").value)) $("pipelines").selectedIndex = -1;
   showLines(line);
 }
 
@@ -260,8 +261,8 @@ function listen() {
     changed();
   }).observe($("canvas"));
   $("files").onchange = () => open(picked($("files").files));
-  $("demo").onclick = () => show(Model.demo());
-  $("technique").onchange = chooseTechnique;
+  $("demo").onclick = () => attempt(() => show(Model.demo()));
+  $("technique").onchange = $("modifier").onchange = chooseTechnique;
   $("compared").onchange = compare;
   $("split").oninput = split;
   $("play").onclick = () => {
@@ -307,18 +308,18 @@ async function start() {
   viewer = await Viewer.create($("canvas"));
   fillTechniques();
   fillPipelines();
-  createSettings(JSON.parse(Viewer.settingsSchema()), json => attempt(() => viewer.setSettings(json), $("settings-error")));
+  createSettings(JSON.parse(Viewer.settingsSchema()), (json, place) => attempt(() => viewer.setSettings(json), place));
   $("lacks").replaceChildren(...viewer.lacks().map(text => item(text)));
   listen();
   select("scene");
   showNames();
+  show(Model.demo());
+  say("");
+  requestAnimationFrame(frame);
   const model = new URLSearchParams(location.search).get("model");
   if (model) await download(model);
-  else show(Model.demo());
-  say("");
   // For the console of the browser.
   globalThis.viewer = viewer;
-  requestAnimationFrame(frame);
 }
 
 start().catch(error => say(error.message ?? String(error), true));

@@ -1,22 +1,29 @@
 // Fields for every setting of a JSON Schema. What differs from its default is handed over as JSON.
 
-/** Fills `#fields` with the settings of a schema; `apply` gets JSON, and returns whether it was accepted. */
+/**
+ * Fills `#fields` with the settings of a schema. `apply` gets JSON and a place for an error, and returns whether the settings were
+ * accepted; a value that was not is left out until it changes.
+ */
 export function createSettings(schema, apply) {
   const root = document.getElementById("fields");
   const fields = [];
-  const send = () => {
+  const send = changed => {
     const changes = {};
     for (const field of fields) {
       const value = field.value();
       const isChanged = JSON.stringify(value) !== JSON.stringify(field.initial);
       field.element.classList.toggle("changed", isChanged);
-      if (isChanged) put(changes, field.path, value);
+      const isSent = field === changed || field.error.textContent === "";
+      if (isChanged && isSent) put(changes, field.path, value);
     }
-    apply(JSON.stringify(changes));
+    apply(JSON.stringify(changes), changed?.error);
   };
   addFields(root, schema, [], fields, send);
   document.getElementById("reset").onclick = () => {
-    for (const field of fields) field.reset();
+    for (const field of fields) {
+      field.reset();
+      field.error.textContent = "";
+    }
     send();
   };
   const filter = document.getElementById("filter");
@@ -27,6 +34,7 @@ export function createSettings(schema, apply) {
       group.hidden = !group.querySelector(".field:not([hidden])");
       group.open = words !== "" && !group.hidden;
     }
+    document.getElementById("none-found").hidden = fields.some(({ element }) => !element.hidden);
   };
 }
 
@@ -59,13 +67,25 @@ function addField(name, schema, path, fields, send) {
   label.htmlFor = input.element.id = `setting-${path.join("-")}`;
   const about = document.createElement("p");
   about.textContent = [schema.description, range(schema)].filter(Boolean).join("; ");
-  // Without a distance, the extent of the scene counts.
-  if (path.join() === "distance_m") about.textContent += "; as it is here: as far as the visible scene reaches";
-  element.append(label, input.element, about);
-  input.set(schema.default);
-  input.element.onchange = send;
-  const initial = input.value();
-  fields.push({ element, path, initial, value: input.value, reset: () => input.set(schema.default) });
+  const error = document.createElement("p");
+  error.className = "error";
+  error.role = "alert";
+  element.append(label, input.element, about, error);
+  // Without a distance, shadows reach as far as the visible scene.
+  const isAutomatic = path.join() === "distance_m";
+  if (isAutomatic) {
+    input.element.placeholder = "automatic";
+    about.textContent += "; empty: as far as the visible scene reaches";
+  }
+  const reset = () => input.set(isAutomatic ? undefined : schema.default);
+  reset();
+  const field = { element, path, error, initial: input.value(), value: input.value, reset };
+  input.element.onchange = () => {
+    // An empty field has its default.
+    if (input.element.value === "" && !input.element.validity.badInput) reset();
+    send(field);
+  };
+  fields.push(field);
   return element;
 }
 
@@ -95,8 +115,8 @@ function inputOf(schema) {
     const element = create({ type: "number", min: schema.minimum, max: schema.maximum, step });
     return {
       element,
-      set: value => { element.valueAsNumber = value; },
-      value: () => Number.isNaN(element.valueAsNumber) ? element.value : element.valueAsNumber,
+      set: value => { element.value = value ?? ""; },
+      value: () => element.validity.badInput ? "" : element.value === "" ? undefined : element.valueAsNumber,
     };
   }
   // Lists and values with several shapes are written as JSON; what is no JSON is handed over as text, and refused.

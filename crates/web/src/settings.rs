@@ -19,11 +19,11 @@ use crate::error::Error;
 /// # Errors
 /// For text that is not JSON, an unknown field, and a value out of range: the field and the range.
 pub fn settings_from_json(text: &str, techniques: &Techniques) -> Result<(ShadowSettings, bool), Error> {
-    let malformed = |error: serde_json::Error| Error::Settings(error.to_string());
-    let mut value: Value = serde_json::from_str(text).map_err(malformed)?;
+    let mut value: Value = serde_json::from_str(text).map_err(|error| Error::Settings(error.to_string()))?;
     let of_techniques = value.as_object_mut().and_then(|fields| fields.remove("techniques"));
     let has_distance = value.get("distance_m").is_some();
-    let mut settings: ShadowSettings = serde_json::from_value(value).map_err(malformed)?;
+    let mut settings: ShadowSettings =
+        serde_path_to_error::deserialize(value).map_err(|error| Error::Settings(error.to_string()))?;
     match of_techniques {
         Some(Value::Object(all)) => {
             for (name, value) in all {
@@ -54,6 +54,8 @@ mod tests {
             ("{", "settings: "),
             (r#"{"no_such_field": 1}"#, "no_such_field"),
             (r#"{"cascades": {"count": 9}}"#, "0 to 8"),
+            (r#"{"cascades": {"count": 2.5}}"#, "settings: cascades.count: invalid type: floating point"),
+            (r#"{"cascades": {"blend": "Foo"}}"#, "settings: cascades.blend: unknown variant `Foo`"),
             (r#"{"techniques": 3}"#, "techniques: expected an object"),
             (r#"{"techniques": {"pcss": {"filter_taps": 0}}}"#, "1 to 64"),
             (r#"{"techniques": {"none_such": {}}}"#, "none_such"),

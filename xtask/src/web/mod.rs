@@ -41,8 +41,6 @@ pub(crate) fn run(open: bool) -> ExitCode {
 pub(crate) fn build(kind: Kind, directory: &Path) -> Result<(), String> {
     println!("Building the page ...");
     let module = compile(kind)?;
-    // A file of an earlier build must not pass for one of this.
-    let _absent = std::fs::remove_dir_all(directory);
     let failed = |error: std::io::Error| format!("cannot write {}: {error}", directory.display());
     std::fs::create_dir_all(directory).map_err(failed)?;
     let mut bundle = child::cargo(&["run", "--quiet", "--package", "bundle", "--"]);

@@ -57,8 +57,20 @@ fn answer(mut stream: TcpStream, directory: &Path) -> std::io::Result<()> {
 /// Returns the path of a request below the directory; `None` for one that is malformed or leads out of it.
 fn path(request: &str) -> Option<PathBuf> {
     let target = request.strip_prefix("GET /")?.split([' ', '?']).next()?;
-    let path = Path::new(if target.is_empty() { "index.html" } else { target });
+    let target = decoded(if target.is_empty() { "index.html" } else { target })?;
+    let path = Path::new(&target);
     path.components().all(|part| matches!(part, Component::Normal(_))).then(|| path.to_owned())
+}
+
+/// Decodes the `%20` of a path; `None` if it is not UTF-8 then.
+fn decoded(text: &str) -> Option<String> {
+    let mut parts = text.split('%');
+    let mut bytes = parts.next()?.as_bytes().to_vec();
+    for part in parts {
+        bytes.push(u8::from_str_radix(part.get(..2)?, 16).ok()?);
+        bytes.extend_from_slice(&part.as_bytes()[2..]);
+    }
+    String::from_utf8(bytes).ok()
 }
 
 fn media_type(path: &Path) -> &'static str {
@@ -79,8 +91,11 @@ mod tests {
     fn requests_stay_within_the_directory() {
         assert_eq!(path("GET / HTTP/1.1"), Some("index.html".into()));
         assert_eq!(path("GET /page.js?x=1 HTTP/1.1"), Some("page.js".into()));
+        assert_eq!(path("GET /my%20hall.glb HTTP/1.1"), Some("my hall.glb".into()));
+        let refused =
+            ["GET /../secret HTTP/1.1", "GET /%2e%2e/secret HTTP/1.1", "GET /%2Fetc/passwd HTTP/1.1"];
         for request in
-            ["GET /../secret HTTP/1.1", "GET //etc/passwd HTTP/1.1", "GET /a/../../b", "POST / HTTP/1.1", ""]
+            refused.into_iter().chain(["GET //etc/passwd HTTP/1.1", "GET /a/../../b", "POST / HTTP/1.1", ""])
         {
             assert_eq!(path(request), None, "{request}");
         }

@@ -37,6 +37,9 @@ impl Canvas {
     /// # Errors
     /// [`Error::NoWebGpu`], and for a device that cannot be opened.
     pub async fn open(element: HtmlCanvasElement) -> Result<Self, Error> {
+        if web_sys::window().is_some_and(|window| !window.is_secure_context()) {
+            return Err(Error::NoWebGpu("it is only there for pages from https or localhost".into()));
+        }
         if !wgpu::util::is_browser_webgpu_supported().await {
             return Err(Error::NoWebGpu("it offers no adapter on this machine".into()));
         }

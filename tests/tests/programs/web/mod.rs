@@ -223,8 +223,8 @@ fn a_frame_takes_little_longer_than_in_the_program() {
 
 #[test]
 fn the_page_has_a_control_for_everything() {
-    let Some(mut page) = open("index.html", []) else { return };
-    page.until("globalThis.viewer && document.getElementById('status').textContent === ''");
+    let Some(mut page) = open("index.html?model=none.glb", []) else { return };
+    page.until("globalThis.viewer && document.getElementById('status').textContent.includes('none.glb: the server answers 404')");
     // A small image, which stands still.
     page.value(
         "document.getElementById('stage').style.width = '256px'; document.getElementById('play').click()",
@@ -240,6 +240,9 @@ fn the_page_has_a_control_for_everything() {
     };
     page.value(&drop("cat.png", "a drawing of a cat"));
     page.until("document.getElementById('status').textContent.includes('cat.png: file: is not glTF')");
+    // The next choice takes its error away.
+    page.value("document.getElementById('demo').click()");
+    assert_eq!(page.value("document.getElementById('status').textContent"), "");
     // And one that is.
     page.value(&drop("empty.gltf", r#"{"asset": {"version": "2.0"}, "scenes": [{}]}"#));
     page.until(
@@ -261,16 +264,24 @@ fn the_page_has_a_control_for_everything() {
     // Every setting has a field; a value out of range is refused with the range.
     page.value("document.querySelector('[data-tab=settings]').click()");
     assert!(page.value("document.querySelectorAll('#fields .field').length").as_u64().unwrap() > 60);
-    let set = |value: &str| {
+    let set = |name: &str, value: &str| {
         format!(
-            "(() => {{ const field = document.getElementById('setting-cascades-count'); field.value = {}; field.onchange(); \
-             return document.getElementById('settings-error').textContent; }})()",
+            "(() => {{ const field = document.getElementById('setting-{name}'); field.value = {}; field.onchange(); \
+             return field.parentElement.querySelector('.error').textContent; }})()",
             json!(value)
         )
     };
-    let refused = page.value(&set("9"));
+    let refused = page.value(&set("cascades-count", "9"));
     assert!(refused.as_str().unwrap().contains("0 to 8"), "{refused}");
-    assert_eq!(page.value(&set("2")), "");
+    // It stays where it is, and does not spoil others.
+    assert_eq!(page.value(&set("distance_m", "20")), "");
+    assert_eq!(page.value(&set("distance_m", "")), "");
+    assert_eq!(page.value(&set("cascades-count", "2")), "");
+    // A modifier.
+    page.value(
+        "(() => { const select = document.getElementById('modifier'); select.value = '+contact'; select.onchange(); })()",
+    );
+    assert_eq!(page.value("viewer.technique"), "pcf+contact");
     // The times of passes, and the graph.
     page.value("document.querySelector('[data-tab=passes]').click()");
     page.until("document.getElementById('times').rows.length > 5");
@@ -284,7 +295,7 @@ fn the_page_has_a_control_for_everything() {
     );
     page.until("!document.getElementById('split').hidden && document.getElementById('right-name').textContent === 'none'");
     assert!(page.value("viewer.takeError() ?? ''") == "");
-    page.close();
+    page.close_after("none.glb");
 }
 
 #[test]
