@@ -1,8 +1,8 @@
 // Fields for every setting of a JSON Schema. What differs from its default is handed over as JSON.
 
 /**
- * Fills `#fields` with the settings of a schema. `apply` gets JSON and a place for an error, and returns whether the settings were
- * accepted; a value that was not is left out until it changes.
+ * Fills `#fields` with the settings of a schema. `apply` gets JSON and a place for an error; a value that is refused is left out until
+ * it changes.
  */
 export function createSettings(schema, apply) {
   const root = document.getElementById("fields");
