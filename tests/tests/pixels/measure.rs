@@ -4,7 +4,9 @@
 use crate::stage::{SIZE_PX, gpu, move_instances};
 use glam::DVec3;
 use shadowgraph::options::Aov;
-use shadowgraph::shadows::{BiasSettings, EVSM, MSM, PCF, ShadowSettings, SplitScheme, TechniqueKind};
+use shadowgraph::shadows::{
+    BiasSettings, EVSM, MSM, PCF, PCSS, RAYTRACED, ShadowSettings, SplitScheme, TechniqueKind,
+};
 use shadowgraph::{Gpu, Renderer, ViewOptions};
 use shadowgraph_quality::metrics::Stability;
 use shadowgraph_quality::report::{Motion, Moving};
@@ -45,6 +47,26 @@ fn the_shadow_of_a_cube_is_close_to_ground_truth() {
         "{errors:?}"
     );
     assert!(errors.peter_panning.cm.count > 20 && errors.peter_panning.cm.mean < 2.0, "{errors:?}");
+}
+
+#[test]
+fn penumbrae_of_pcss_and_of_several_rays_are_closer_to_ground_truth_than_those_of_pcf() {
+    let Some(gpu) = gpu() else { return };
+    let cases = built_in_cases().unwrap().cases;
+    let case = cases.iter().find(|case| case.name() == "columns").unwrap();
+    let mut scene = test_scene("columns").unwrap();
+    scene.insert_light(case.sun(30.0));
+    let camera = case.views[0].camera();
+    let options = ViewOptions { camera, size_px: [640, 360], shadows: ShadowSettings::default() };
+    let mut renderers = [PCF, PCSS, RAYTRACED].map(|technique| {
+        Renderer::with_config(gpu, scene.clone(), &options.camera, Aov::Visibility(0), technique).unwrap()
+    });
+    let mut comparator = Comparator::new(gpu, &renderers[0], 0).unwrap();
+    let reference = comparator.reference(&mut renderers[0], &options, 16).unwrap();
+    let [pcf, pcss, raytraced] = renderers.map(|mut renderer| {
+        comparator.compare(&mut renderer, &options, &reference).unwrap().edges.unwrap().rmse
+    });
+    assert!(pcss < 0.8 * pcf && raytraced < 0.8 * pcf, "{pcf} {pcss} {raytraced}");
 }
 
 #[test]

@@ -92,7 +92,8 @@ fn every_small_example_runs_and_writes_its_image() {
     assert_eq!(read("split_screen.png").dimensions(), (640, 360));
 
     let lights = ["minimal_lit", "forward_plus"].map(|pipeline| {
-        assert!(output_of("many_lights", &[pipeline]).starts_with(&format!("{pipeline}: ")));
+        let output = output_of("many_lights", &[pipeline, "--size", "160x90"]);
+        assert!(output.starts_with(&format!("{pipeline}: ")), "{output}");
         read("many_lights.png")
     });
     assert!(lights[0] == lights[1], "both pipelines render the same image");
@@ -101,7 +102,7 @@ fn every_small_example_runs_and_writes_its_image() {
     let day = [0, 11].map(|number| read(&format!("day_cycle/{number:02}.png")));
     assert!(pixel(&day[1], 160, 150) != pixel(&day[0], 160, 150), "noon is not morning");
 
-    output_of("edit_scene", &[]);
+    output_of("edit_scene", &["--size", "160x90"]);
     let edited = [0, 35, 71].map(|number| read(&format!("edit_scene/{number:02}.png")));
     assert!(edited[0] != edited[1] && edited[1] != edited[2], "every frame is edited");
 

@@ -105,26 +105,6 @@ fn the_output_directory_gets_a_page_with_images_and_a_report() {
 }
 
 #[test]
-fn penumbrae_of_pcss_and_of_several_rays_are_closer_to_ground_truth_than_those_of_pcf() {
-    let dir = tempfile::tempdir().unwrap();
-    let (cases, out) = (dir.path().join("cases.ron"), dir.path().join("out"));
-    let columns = r#"(cases: [(
-        scene: TestScene("columns"), sun_elevations_deg: [30], sun_heading_deg: 20,
-        views: [(name: "near", eye: (0.6, 1.7, 5), target: (-0.2, 1.2, -20))],
-    )])"#;
-    std::fs::write(&cases, columns).unwrap();
-    let cases = cases.to_str().unwrap();
-    let techniques = ["--techniques", "pcf,pcss,raytraced"];
-    let arguments = [&["--quick", "--size", "640x360", "--cases", cases][..], &techniques, &["-o"]].concat();
-    let Some(output) = measure(&[&arguments[..], &[out.to_str().unwrap()]].concat()) else { return };
-    assert!(output.status.success(), "{}", text(&output.stderr));
-    let json = std::fs::read_to_string(out.join("report.json")).unwrap();
-    let report: Report = serde_json::from_str(&json).unwrap();
-    let [pcf, pcss, raytraced] = [0, 1, 2].map(|i| report.cases[i].edges.as_ref().unwrap().rmse);
-    assert!(pcss < 0.8 * pcf && raytraced < 0.8 * pcf, "{pcf} {pcss} {raytraced}");
-}
-
-#[test]
 fn variants_of_settings_are_measured_next_to_the_base_settings() {
     let dir = tempfile::tempdir().unwrap();
     let (cases, variants) = (small_case(dir.path()), dir.path().join("variants.ron"));

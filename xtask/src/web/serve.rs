@@ -42,6 +42,7 @@ fn answer(mut stream: TcpStream, directory: &Path) -> std::io::Result<()> {
         return stream
             .write_all(b"HTTP/1.1 400 Bad Request\r\ncontent-length: 0\r\nconnection: close\r\n\r\n");
     };
+    let is_head = request.starts_with("HEAD ");
     let Ok(mut file) = File::open(directory.join(&path)) else {
         return stream.write_all(b"HTTP/1.1 404 Not Found\r\ncontent-length: 0\r\nconnection: close\r\n\r\n");
     };
@@ -50,13 +51,16 @@ fn answer(mut stream: TcpStream, directory: &Path) -> std::io::Result<()> {
         stream,
         "HTTP/1.1 200 OK\r\ncontent-type: {kind}\r\ncontent-length: {length}\r\ncache-control: no-cache\r\nconnection: close\r\n\r\n"
     )?;
-    std::io::copy(&mut file, &mut stream)?;
+    if !is_head {
+        std::io::copy(&mut file, &mut stream)?;
+    }
     Ok(())
 }
 
 /// Returns the path of a request below the directory; `None` for one that is malformed or leads out of it.
 fn path(request: &str) -> Option<PathBuf> {
-    let target = request.strip_prefix("GET /")?.split([' ', '?']).next()?;
+    let target = request.strip_prefix("GET /").or_else(|| request.strip_prefix("HEAD /"))?;
+    let target = target.split([' ', '?']).next()?;
     let target = decoded(if target.is_empty() { "index.html" } else { target })?;
     let path = Path::new(&target);
     path.components().all(|part| matches!(part, Component::Normal(_))).then(|| path.to_owned())
@@ -90,7 +94,7 @@ mod tests {
     #[test]
     fn requests_stay_within_the_directory() {
         assert_eq!(path("GET / HTTP/1.1"), Some("index.html".into()));
-        assert_eq!(path("GET /page.js?x=1 HTTP/1.1"), Some("page.js".into()));
+        assert_eq!(path("HEAD /page.js?x=1 HTTP/1.1"), Some("page.js".into()));
         assert_eq!(path("GET /my%20hall.glb HTTP/1.1"), Some("my hall.glb".into()));
         let refused =
             ["GET /../secret HTTP/1.1", "GET /%2e%2e/secret HTTP/1.1", "GET /%2Fetc/passwd HTTP/1.1"];

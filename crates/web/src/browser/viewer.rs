@@ -213,8 +213,8 @@ impl Viewer {
         self.borrow_mut().measures = on;
     }
 
-    /// Returns JSON of the passes of the last measured frame, in order: an array of `pass`, `node`, `cpu_ms`, and `gpu_ms`, which is `null`
-    /// where the browser measures no times.
+    /// Returns JSON of the passes of the last measured frame, in order: an array of `pass`, `node`, `draws`, `cpu_ms`, and `gpu_ms`,
+    /// which is `null` where the browser measures no times.
     #[must_use]
     pub fn times(&self) -> String {
         let state = self.borrow();

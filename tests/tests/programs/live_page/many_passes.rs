@@ -20,7 +20,7 @@ const PASSES: u32 = 65;
 /// The least time of a frame: 60 a second.
 const FRAME: Duration = Duration::from_micros(16_667);
 /// How long each state is measured.
-const MEASURED: Duration = Duration::from_secs(4);
+const MEASURED: Duration = Duration::from_secs(2);
 
 const SHADER: &str = "
 @group(0) @binding(0) var before: texture_2d<f32>;
