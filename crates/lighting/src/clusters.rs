@@ -6,8 +6,8 @@ use crate::error::Error;
 use crate::shader::module;
 use crate::uniforms::ViewBuffers;
 
-/// Clusters per depth slice, and depth slices: `CLUSTERS` of `cluster_grid.wgsl`.
-const CLUSTERS: [u32; 2] = [16 * 9, 24];
+/// Clusters across, down, and away from the camera: `CLUSTERS` of `cluster_grid.wgsl`.
+const CLUSTERS: [u32; 3] = [16, 9, 24];
 /// Workgroup size of `clusters.wgsl`.
 const WORKGROUP: u32 = 64;
 
@@ -33,7 +33,8 @@ impl Clusters {
     /// a pixel's cluster. The image is the same, as a light has no effect beyond its range; lights without a range and
     /// directional ones reach every cluster.
     pub fn add_to(&self, frame: &mut Frame<'_>, view: &ViewBuffers, light_count: usize) -> ViewBuffers {
-        let [clusters_per_slice, slices] = CLUSTERS;
+        let [across, down, slices] = CLUSTERS;
+        let clusters_per_slice = across * down;
         let height = slices * (light_count as u32).div_ceil(32).max(1);
         let mut clusters = frame
             .create_texture("cluster lights", TextureDesc::d2(clusters_per_slice, height, Format::R32Uint));

@@ -1,10 +1,11 @@
 //! Checks the layers of the design: which packages may depend on which, which words a crate must not use,
-//! and that no retired word is left.
+//! that no retired word is left, and that shaders have the constants of Rust.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
 
 mod cycles;
 mod imports;
 mod retired_words;
+mod shader_constants;
 mod source;
 
 use serde_json::Value;
