@@ -106,7 +106,13 @@ function compare() {
 function split() {
   viewer.split($("split").valueAsNumber);
   $("divider").style.left = `${$("split").valueAsNumber * 100}%`;
-  changed();
+}
+
+function dragDivider(event) {
+  if (!$("divider").hasPointerCapture(event.pointerId)) return;
+  const { left, width } = $("stage").getBoundingClientRect();
+  $("split").value = (event.clientX - left) / width;
+  split();
 }
 
 function showNames() {
@@ -116,18 +122,31 @@ function showNames() {
 
 function fillTechniques() {
   const { techniques, modifiers } = JSON.parse(Viewer.techniques());
-  $("compared").append(new Option("nothing", ""));
-  for (const { name, summary } of techniques) {
-    option(name, summary, $("technique"));
-    option(name, summary, $("compared"));
-  }
+  $("compared").append(new Option("no comparison", ""));
   $("modifier").append(new Option("alone", ""));
+  for (const { name, summary } of techniques) option(name, summary, $("technique"));
   for (const { name, summary } of modifiers) option(`+${name}`, summary, $("modifier"));
+  for (const added of ["", ...modifiers.map(({ name }) => `+${name}`)]) {
+    const group = document.createElement("optgroup");
+    group.label = added || "alone";
+    for (const { name, summary } of techniques) option(name + added, summary, group);
+    $("compared").append(group);
+  }
   $("technique").value = viewer.technique;
   $("technique-hint").textContent = $("technique").selectedOptions[0].title;
 }
 
 // Pipelines.
+
+// The text that is none of the built-in ones.
+let edited = "";
+
+function keepEdited() {
+  if ($("text").value === Viewer.pipelineText($("pipelines").value)) return;
+  edited = $("text").value;
+  $("edited").hidden = false;
+  $("pipelines").value = "";
+}
 
 /** Shows the numbers of lines, and marks the one that an error `name:line:column: …` names. */
 function showLines(marked = 0) {
@@ -150,8 +169,7 @@ function applyPipeline() {
     const height = $("text").scrollHeight / $("text").value.split("\n").length;
     $("text").scrollTop = (line - 3) * height;
   }
-  // The text is none of the built-in ones.
-  if (isValid && $("text").value !== Viewer.pipelineText($("pipelines").value)) $("pipelines").selectedIndex = -1;
+  keepEdited();
   showLines(line);
 }
 
@@ -159,13 +177,14 @@ function fillPipelines() {
   for (const name of Viewer.pipelines()) $("pipelines").append(new Option(name, name));
   $("pipelines").value = viewer.pipeline;
   const load = () => {
-    $("text").value = Viewer.pipelineText($("pipelines").value);
+    $("text").value = Viewer.pipelineText($("pipelines").value) ?? edited;
     $("text").scrollTop = 0;
     showLines();
   };
   $("pipelines").onchange = () => {
     load();
-    attempt(() => { viewer.pipeline = $("pipelines").value; }, $("pipeline-error"));
+    if ($("pipelines").value) attempt(() => { viewer.pipeline = $("pipelines").value; }, $("pipeline-error"));
+    else applyPipeline();
   };
   load();
 }
@@ -265,6 +284,8 @@ function listen() {
   $("technique").onchange = $("modifier").onchange = chooseTechnique;
   $("compared").onchange = compare;
   $("split").oninput = split;
+  $("divider").onpointerdown = event => $("divider").setPointerCapture(event.pointerId);
+  $("divider").onpointermove = dragDivider;
   $("play").onclick = () => {
     playing = !playing;
     $("play").textContent = playing ? "Pause" : "Play";
@@ -274,7 +295,10 @@ function listen() {
     changed();
   };
   $("apply").onclick = applyPipeline;
-  $("text").oninput = () => showLines();
+  $("text").oninput = () => {
+    keepEdited();
+    showLines();
+  };
   $("text").onscroll = () => { $("lines").scrollTop = $("text").scrollTop; };
   $("text").onkeydown = event => {
     if (event.key === "Enter" && (event.ctrlKey || event.metaKey)) applyPipeline();
@@ -308,7 +332,15 @@ async function start() {
   viewer = await Viewer.create($("canvas"));
   fillTechniques();
   fillPipelines();
-  createSettings(JSON.parse(Viewer.settingsSchema()), (json, place) => attempt(() => viewer.setSettings(json), place));
+  createSettings(JSON.parse(Viewer.settingsSchema()), json => {
+    try {
+      viewer.setSettings(json);
+      changed();
+      return "";
+    } catch (error) {
+      return error.message;
+    }
+  });
   $("lacks").replaceChildren(...viewer.lacks().map(text => item(text)));
   listen();
   select("scene");

@@ -1,22 +1,29 @@
 // Fields for every setting of a JSON Schema. What differs from its default is handed over as JSON.
 
 /**
- * Fills `#fields` with the settings of a schema. `apply` gets JSON and a place for an error; a value that is refused is left out until
- * it changes.
+ * Fills `#fields` with the settings of a schema. `apply` gets JSON and returns an error, or an empty text. A value that is refused is left
+ * out until it fits.
  */
 export function createSettings(schema, apply) {
   const root = document.getElementById("fields");
   const fields = [];
-  const send = changed => {
+  const without = refused => {
     const changes = {};
-    for (const field of fields) {
-      const value = field.value();
-      const isChanged = JSON.stringify(value) !== JSON.stringify(field.initial);
-      field.element.classList.toggle("changed", isChanged);
-      const isSent = field === changed || field.error.textContent === "";
-      if (isChanged && isSent) put(changes, field.path, value);
+    for (const field of fields.filter(field => !refused.includes(field) && field.isChanged())) {
+      put(changes, field.path, field.value());
     }
-    apply(JSON.stringify(changes), changed?.error);
+    return JSON.stringify(changes);
+  };
+  const send = changed => {
+    for (const field of fields) field.element.classList.toggle("changed", field.isChanged());
+    const refused = fields.filter(field => field !== changed && field.error.textContent !== "");
+    let error = apply(without([]));
+    if (error === "") {
+      for (const field of refused) field.error.textContent = "";
+    } else if (refused.length > 0) {
+      error = apply(without(refused));
+    }
+    if (changed) changed.error.textContent = error;
   };
   addFields(root, schema, [], fields, send);
   document.getElementById("reset").onclick = () => {
@@ -28,15 +35,21 @@ export function createSettings(schema, apply) {
   };
   const filter = document.getElementById("filter");
   filter.oninput = () => {
-    const words = filter.value.toLowerCase();
-    for (const { element } of fields) element.hidden = !element.textContent.toLowerCase().includes(words);
+    const words = plain(filter.value).split(" ").filter(Boolean);
+    for (const { element, path } of fields) {
+      const text = plain(`${path.join(" ")} ${element.textContent}`);
+      element.hidden = !words.every(word => text.includes(word));
+    }
     for (const group of root.querySelectorAll("details")) {
       group.hidden = !group.querySelector(".field:not([hidden])");
-      group.open = words !== "" && !group.hidden;
+      group.open = words.length > 0 && !group.hidden;
     }
     document.getElementById("none-found").hidden = fields.some(({ element }) => !element.hidden);
   };
 }
+
+/** Returns a text with `cascades.map_size_px` as words. */
+const plain = text => text.toLowerCase().replaceAll(/[._]/g, " ");
 
 function put(object, path, value) {
   for (const name of path.slice(0, -1)) object = object[name] ??= {};
@@ -66,7 +79,8 @@ function addField(name, schema, path, fields, send) {
   label.textContent = name;
   label.htmlFor = input.element.id = `setting-${path.join("-")}`;
   const about = document.createElement("p");
-  about.textContent = [schema.description, range(schema)].filter(Boolean).join("; ");
+  const forms = input.element.type === "text" ? shape(schema) : range(schema);
+  about.textContent = [schema.description, forms].filter(Boolean).join("; ");
   const error = document.createElement("p");
   error.className = "error";
   error.role = "alert";
@@ -79,7 +93,9 @@ function addField(name, schema, path, fields, send) {
   }
   const reset = () => input.set(isAutomatic ? undefined : schema.default);
   reset();
-  const field = { element, path, error, initial: input.value(), value: input.value, reset };
+  const initial = JSON.stringify(input.value());
+  const isChanged = () => JSON.stringify(input.value()) !== initial;
+  const field = { element, path, error, value: input.value, isChanged, reset };
   input.element.onchange = () => {
     // An empty field has its default.
     if (input.element.value === "" && !input.element.validity.badInput) reset();
@@ -91,6 +107,16 @@ function addField(name, schema, path, fields, send) {
 
 function range({ minimum, maximum }) {
   return minimum === undefined ? "" : `${minimum} to ${maximum}`;
+}
+
+/** Returns what values of a schema look like as JSON. */
+function shape(schema) {
+  const { const: value, enum: choices, anyOf, properties, type, items } = schema;
+  if (value !== undefined) return JSON.stringify(value);
+  if (choices ?? anyOf) return (choices?.map(choice => JSON.stringify(choice)) ?? anyOf.map(shape)).join(" or ");
+  if (items) return `[${shape(items)}, …]`;
+  if (properties) return `{${Object.entries(properties).map(([name, inner]) => `"${name}": ${shape(inner)}`).join(", ")}}`;
+  return range(schema) || (type ?? "");
 }
 
 /** Returns a form element for the values of a schema, with functions that set and return its value. */

@@ -7,15 +7,11 @@ use shadowgraph_samples::demo::demo_scene;
 
 use crate::error::Error;
 
-/// The aspect ratio for which a camera frames a scene that has none.
-const ASPECT: f64 = 16.0 / 9.0;
-
-/// A scene that is ready to be shown: with a ground and a sun if its file has none, as the program `shadowgraph` adds them, and with a camera.
+/// A scene that is ready to be shown: with a ground and a sun if its file has none, as the program `shadowgraph` adds them.
 #[derive(Clone, Debug)]
 #[cfg_attr(target_arch = "wasm32", wasm_bindgen::prelude::wasm_bindgen)]
 pub struct Model {
     pub(crate) scene: Scene,
-    pub(crate) camera: Camera,
     notes: Vec<String>,
 }
 
@@ -45,8 +41,15 @@ impl Model {
         let mut notes = scene.notes.clone();
         GroundChoice::default().place(&scene, true).add_to(&mut scene);
         notes.extend(SunChoice::default().apply(&mut scene));
-        let camera = scene.cameras.first().cloned().unwrap_or_else(|| scene.framing_camera(ASPECT));
-        Self { scene, camera, notes }
+        Self { scene, notes }
+    }
+
+    /// Returns the first camera of the scene; without one, a camera that frames it in images of this aspect ratio, their width over their height,
+    /// above 0.
+    #[must_use]
+    pub fn camera(&self, aspect: f64) -> Camera {
+        let first = self.scene.cameras.first().cloned();
+        first.unwrap_or_else(|| self.scene.framing_camera(aspect))
     }
 
     /// Returns what is not drawn as the file says, and what was added to it, a line each.
@@ -66,7 +69,7 @@ mod tests {
         let text = br#"{"asset": {"version": "2.0"}, "scenes": [{}]}"#;
         let model = Model::from_bytes("empty.gltf", text, &[], &mut |_| {}).unwrap();
         assert_eq!(model.scene.lights().len(), 1);
-        assert!(model.camera.check(ASPECT).is_ok());
+        assert!(model.camera(0.5).check(0.5).is_ok());
         assert!(model.notes().iter().any(|note| note.contains("sun")), "{:?}", model.notes());
     }
 

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use shadowgraph::core::{Plan, Timer};
 use shadowgraph::options::{Aov, ShadowDistance};
 use shadowgraph::pipelines::Parameters;
-use shadowgraph::scene::AnimationSelection;
+use shadowgraph::scene::{AnimationSelection, Camera};
 use shadowgraph::shadows::{ShadowSettings, Technique};
 use shadowgraph::{Gpu, PendingCounts, Pipeline, Registry, RenderConfig, Renderer, ViewOptions, wgpu};
 
@@ -48,10 +48,10 @@ pub struct Recorded {
 }
 
 impl Stage {
-    /// Shows a model with the default technique, pipeline and settings.
+    /// Shows a model with the default technique, pipeline and settings, from its [camera](Model::camera) for images of an aspect ratio.
     #[must_use]
-    pub fn new(model: Model) -> Self {
-        let orbit = Orbit::new(model.camera.clone(), &model.scene.bounds());
+    pub fn new(model: Model, aspect: f64) -> Self {
+        let orbit = Orbit::new(model.camera(aspect), &model.scene.bounds());
         Self {
             registry: Registry::built_in(),
             orbit,
@@ -77,9 +77,9 @@ impl Stage {
         &self.model
     }
 
-    /// Shows another model, from its own camera and at time 0.
-    pub fn show(&mut self, model: Model) {
-        self.orbit = Orbit::new(model.camera.clone(), &model.scene.bounds());
+    /// Shows another model, from its [camera](Model::camera) for images of an aspect ratio, and at time 0.
+    pub fn show(&mut self, model: Model, aspect: f64) {
+        self.orbit = Orbit::new(model.camera(aspect), &model.scene.bounds());
         (self.model, self.time_s) = (model, 0.0);
         self.forget_renderers();
     }
@@ -216,7 +216,7 @@ impl Stage {
         let options = ViewOptions { camera: orbit.camera().clone(), size_px, shadows };
         let options = options.with_shadow_distance(*distance, &model.scene);
         view.distance_m = options.shadows.distance_m;
-        let renderer = view.renderer(gpu, model, pipeline)?;
+        let renderer = view.renderer(gpu, model, &options.camera, pipeline)?;
         let (executed, counts) = match timer {
             Some(timer) => {
                 let (executed, counts) = renderer.record_measured(gpu, encoder, target, &options, timer)?;
@@ -240,14 +240,20 @@ impl View {
     }
 
     /// Returns the renderer, which is created if there is none for these choices. A failure is returned again until a choice changes.
-    fn renderer(&mut self, gpu: &Gpu, model: &Model, pipeline: &Pipeline) -> Result<&mut Renderer, Error> {
+    fn renderer(
+        &mut self,
+        gpu: &Gpu,
+        model: &Model,
+        camera: &Camera,
+        pipeline: &Pipeline,
+    ) -> Result<&mut Renderer, Error> {
         if self.requested.as_ref().is_none_or(|(last, _)| last != pipeline) {
             let config = RenderConfig {
                 technique: Some(self.technique),
                 pipeline: pipeline.clone(),
                 ..RenderConfig::default()
             };
-            let created = Renderer::with_config(gpu, model.scene.clone(), &model.camera, Aov::Color, config);
+            let created = Renderer::with_config(gpu, model.scene.clone(), camera, Aov::Color, config);
             let failed = created.as_ref().err().map(ToString::to_string);
             self.requested = Some((pipeline.clone(), failed.map_or(Ok(()), Err)));
             self.renderer = Some(created?);

@@ -92,6 +92,13 @@ impl Canvas {
         [self.element.width().max(1), self.element.height().max(1)]
     }
 
+    /// Returns the width over the height.
+    #[must_use]
+    pub fn aspect(&self) -> f64 {
+        let [width, height] = self.size_px().map(f64::from);
+        width / height
+    }
+
     /// Changes width and height, pixels, within the limits of the device.
     pub fn resize(&mut self, size_px: [u32; 2]) {
         let limit = self.gpu.device.limits().max_texture_dimension_2d;

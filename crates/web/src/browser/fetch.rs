@@ -13,7 +13,12 @@ pub(super) async fn fetch(url: &str, progress: &mut dyn FnMut(u64, u64)) -> Resu
     let failed = |reason: String| Error::Fetch { url: url.into(), reason };
     let refused = |error: JsValue| failed(reason(&error));
     let window = web_sys::window().ok_or_else(|| failed("there is no window".into()))?;
-    let response = JsFuture::from(window.fetch_with_str(url)).await.map_err(refused)?;
+    // Browsers tell pages no more than that it failed.
+    let unreachable = |error: JsValue| {
+        let why = "the server cannot be reached, or does not allow other pages to read the file (CORS)";
+        failed(format!("{}: {why}", reason(&error)))
+    };
+    let response = JsFuture::from(window.fetch_with_str(url)).await.map_err(unreachable)?;
     let response: Response = response.dyn_into().map_err(refused)?;
     if !response.ok() {
         return Err(failed(format!("the server answers {} {}", response.status(), response.status_text())));

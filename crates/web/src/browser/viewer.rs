@@ -55,9 +55,10 @@ impl Viewer {
     /// # Errors
     /// For a browser or a machine without WebGPU.
     pub async fn create(canvas: HtmlCanvasElement) -> Result<Viewer, JsValue> {
+        let canvas = Canvas::open(canvas).await.map_err(thrown)?;
         let state = State {
-            canvas: Canvas::open(canvas).await.map_err(thrown)?,
-            stage: Stage::new(Model::demo_scene()),
+            stage: Stage::new(Model::demo_scene(), canvas.aspect()),
+            canvas,
             images: Vec::new(),
             split: 0.5,
             measures: false,
@@ -67,9 +68,11 @@ impl Viewer {
         Ok(Self { state: Rc::new(RefCell::new(state)) })
     }
 
-    /// Shows a model, from its own camera. The model can be shown again.
+    /// Shows a model from its first camera; without one, from where all of it is visible. The model can be shown again.
     pub fn show(&self, model: &Model) {
-        self.borrow_mut().stage.show(model.clone());
+        let mut state = self.borrow_mut();
+        let aspect = state.canvas.aspect();
+        state.stage.show(model.clone(), aspect);
     }
 
     /// Draws a frame at a moment of the model's animations, seconds.
@@ -148,9 +151,14 @@ impl Viewer {
         self.borrow_mut().stage.compare_with(name.as_deref()).map_err(thrown)
     }
 
-    /// Sets where the comparison splits the canvas: a part of its width, 0 to 1.
+    /// Sets where the comparison splits the canvas: a part of its width, 0 to 1. The canvas shows it at once, without another frame.
     pub fn split(&self, part: f64) {
-        self.borrow_mut().split = if part.is_finite() { part.clamp(0.0, 1.0) } else { 0.5 };
+        let mut state = self.borrow_mut();
+        state.split = if part.is_finite() { part.clamp(0.0, 1.0) } else { 0.5 };
+        if state.images.len() > 1 && state.canvas.lost().is_none() {
+            let encoder = state.canvas.gpu().device.create_command_encoder(&Default::default());
+            state.show_images(encoder);
+        }
     }
 
     /// Returns the name of the pipeline.
@@ -346,12 +354,17 @@ impl State {
             }
         }
         self.pending = timer.zip(counts).or(self.pending.take());
-        let [width, _] = size_px;
+        self.show_images(encoder);
+        Ok(())
+    }
+
+    /// Submits an encoder, and shows the images.
+    fn show_images(&self, encoder: wgpu::CommandEncoder) {
+        let width = self.images.first().map_or(0, wgpu::Texture::width);
         let split = if self.images.len() > 1 { self.split_px(width) } else { width };
         let columns = [0..split, split..width];
         let parts: Vec<_> = self.images.iter().zip(columns).collect();
         self.canvas.show(encoder, &parts);
-        Ok(())
     }
 
     /// Takes the times of the measured frame, if they have arrived.

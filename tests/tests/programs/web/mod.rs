@@ -261,6 +261,20 @@ fn the_page_has_a_control_for_everything() {
             .unwrap()
             .contains("nonsense")
     );
+    // The text stays while another pipeline is looked at.
+    page.value(
+        "globalThis.list = document.getElementById('pipelines'); list.value = 'deferred'; list.onchange()",
+    );
+    assert_eq!(
+        page.value("viewer.pipeline + document.getElementById('pipeline-error').textContent"),
+        "deferred"
+    );
+    page.value("list.value = ''; list.onchange()");
+    assert!(
+        page.value(
+            "document.getElementById('text').value.includes('nonsense') && viewer.pipeline === 'deferred'"
+        ) == true
+    );
     // Every setting has a field; a value out of range is refused with the range.
     page.value("document.querySelector('[data-tab=settings]').click()");
     assert!(page.value("document.querySelectorAll('#fields .field').length").as_u64().unwrap() > 60);
@@ -277,6 +291,19 @@ fn the_page_has_a_control_for_everything() {
     assert_eq!(page.value(&set("distance_m", "20")), "");
     assert_eq!(page.value(&set("distance_m", "")), "");
     assert_eq!(page.value(&set("cascades-count", "2")), "");
+    // One that another one made invalid is accepted once that has changed.
+    assert_eq!(page.value(&set("techniques-evsm-blur_texels", "4")), "");
+    assert_ne!(page.value(&set("techniques-evsm-downscale", "4")), "");
+    assert_eq!(page.value(&set("techniques-evsm-blur_texels", "1")), "");
+    assert_eq!(
+        page.value(
+            "[...document.querySelectorAll('#fields .error')].map(({ textContent }) => textContent).join('')"
+        ),
+        ""
+    );
+    // Settings are found by their path.
+    page.value("globalThis.filter = document.getElementById('filter'); filter.value = 'cascades.map_size'; filter.oninput()");
+    assert_eq!(page.value("[...document.querySelectorAll('.field:not([hidden]) label')].map(({ htmlFor }) => htmlFor).join()"), "setting-cascades-map_size_px");
     // A modifier.
     page.value(
         "(() => { const select = document.getElementById('modifier'); select.value = '+contact'; select.onchange(); })()",
