@@ -19,19 +19,23 @@ function say(text, isError = false) {
   $("status").classList.toggle("error", isError);
 }
 
-/** Runs a choice of the user; an error is shown in `place`, or over the view, until a choice succeeds. */
-function attempt(work, place) {
+/** Runs a choice of the user, and returns its error, or an empty text. */
+function tried(work) {
   try {
     work();
-    if (place) place.textContent = "";
-    else if ($("status").classList.contains("error")) say("");
     changed();
-    return true;
+    return "";
   } catch (error) {
-    if (place) place.textContent = error.message;
-    else say(error.message, true);
-    return false;
+    return error.message;
   }
+}
+
+/** Runs a choice of the user; an error is shown in `place`, or over the view, until a choice succeeds. */
+function attempt(work, place) {
+  const error = tried(work);
+  if (place) place.textContent = error;
+  else if (error || $("status").classList.contains("error")) say(error, error !== "");
+  return error === "";
 }
 
 // Models.
@@ -332,15 +336,7 @@ async function start() {
   viewer = await Viewer.create($("canvas"));
   fillTechniques();
   fillPipelines();
-  createSettings(JSON.parse(Viewer.settingsSchema()), json => {
-    try {
-      viewer.setSettings(json);
-      changed();
-      return "";
-    } catch (error) {
-      return error.message;
-    }
-  });
+  createSettings(JSON.parse(Viewer.settingsSchema()), json => tried(() => viewer.setSettings(json)));
   $("lacks").replaceChildren(...viewer.lacks().map(text => item(text)));
   listen();
   select("scene");

@@ -113,7 +113,8 @@ function range({ minimum, maximum }) {
 function shape(schema) {
   const { const: value, enum: choices, anyOf, properties, type, items } = schema;
   if (value !== undefined) return JSON.stringify(value);
-  if (choices ?? anyOf) return (choices?.map(choice => JSON.stringify(choice)) ?? anyOf.map(shape)).join(" or ");
+  if (choices) return choices.map(choice => JSON.stringify(choice)).join(" or ");
+  if (anyOf) return anyOf.map(shape).join(" or ");
   if (items) return `[${shape(items)}, …]`;
   if (properties) return `{${Object.entries(properties).map(([name, inner]) => `"${name}": ${shape(inner)}`).join(", ")}}`;
   return range(schema) || (type ?? "");

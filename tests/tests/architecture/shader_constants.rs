@@ -4,19 +4,23 @@ use crate::sources;
 use regex::Regex;
 use std::collections::BTreeMap;
 use std::path::Path;
+use std::sync::LazyLock;
 
 /// The least number of constants that are expected to be found.
 const LEAST: usize = 20;
 
+static NUMBER: LazyLock<Regex> = LazyLock::new(|| {
+    Regex::new(r"\b(?:0x([0-9a-f]+)|([0-9][0-9_]*(?:\.[0-9]+)?))(?:u|f|u32|f32)?\b").unwrap()
+});
+
 /// Returns the numbers in an expression of Rust or WGSL.
 fn numbers(expression: &str) -> Vec<f64> {
     let expression = expression.replace("u32::MAX - 1", "0xfffffffe").replace("u32::MAX", "0xffffffff");
-    let number = Regex::new(r"\b(?:0x([0-9a-f]+)|([0-9][0-9_]*(?:\.[0-9]+)?))(?:u|f|u32|f32)?\b").unwrap();
     let value = |found: regex::Captures<'_>| match (found.get(1), found.get(2)) {
         (Some(hexadecimal), _) => u32::from_str_radix(hexadecimal.as_str(), 16).unwrap().into(),
         (_, decimal) => decimal.unwrap().as_str().replace('_', "").parse().unwrap(),
     };
-    number.captures_iter(&expression).map(value).collect()
+    NUMBER.captures_iter(&expression).map(value).collect()
 }
 
 /// Returns the values of the constants of each file of WGSL, by its name and theirs.

@@ -4,6 +4,7 @@
 use crate::stage::{SIZE_PX, gpu, move_instances};
 use glam::DVec3;
 use shadowgraph::options::Aov;
+use shadowgraph::scene::{Camera, Scene};
 use shadowgraph::shadows::{
     BiasSettings, EVSM, MSM, PCF, PCSS, RAYTRACED, ShadowSettings, SplitScheme, TechniqueKind,
 };
@@ -16,14 +17,20 @@ use shadowgraph_quality::{
 };
 use shadowgraph_samples::test_scenes::test_scene;
 
-/// Measures a test scene under the sun at 30 degrees, from nearby.
-fn measured(name: &str, shadows: ShadowSettings) -> Option<ViewErrors> {
-    let gpu = gpu()?;
+/// Returns a test scene under the sun at 30 degrees, and its camera nearby.
+fn sunlit(name: &str) -> (Scene, Camera) {
     let cases = built_in_cases().unwrap().cases;
     let case = cases.iter().find(|case| case.name() == name).unwrap();
     let mut scene = test_scene(name).unwrap();
     scene.insert_light(case.sun(30.0));
-    let options = ViewOptions { camera: case.views[0].camera(), size_px: SIZE_PX, shadows };
+    (scene, case.views[0].camera())
+}
+
+/// Measures a test scene under the sun at 30 degrees, from nearby.
+fn measured(name: &str, shadows: ShadowSettings) -> Option<ViewErrors> {
+    let gpu = gpu()?;
+    let (scene, camera) = sunlit(name);
+    let options = ViewOptions { camera, size_px: SIZE_PX, shadows };
     let mut renderer = Renderer::new(gpu, scene, &options.camera, Aov::Visibility(0)).unwrap();
     let mut comparator = Comparator::new(gpu, &renderer, 0).unwrap();
     let compared = comparator.measure(&mut renderer, &options).unwrap();
@@ -52,11 +59,7 @@ fn the_shadow_of_a_cube_is_close_to_ground_truth() {
 #[test]
 fn penumbrae_of_pcss_and_of_several_rays_are_closer_to_ground_truth_than_those_of_pcf() {
     let Some(gpu) = gpu() else { return };
-    let cases = built_in_cases().unwrap().cases;
-    let case = cases.iter().find(|case| case.name() == "columns").unwrap();
-    let mut scene = test_scene("columns").unwrap();
-    scene.insert_light(case.sun(30.0));
-    let camera = case.views[0].camera();
+    let (scene, camera) = sunlit("columns");
     let options = ViewOptions { camera, size_px: [640, 360], shadows: ShadowSettings::default() };
     let mut renderers = [PCF, PCSS, RAYTRACED].map(|technique| {
         Renderer::with_config(gpu, scene.clone(), &options.camera, Aov::Visibility(0), technique).unwrap()
@@ -107,12 +110,8 @@ fn a_large_bias_is_measured_as_peter_panning_and_missing_contacts() {
 /// Evaluates the technique at the visible surfaces of the slats with the scene and the camera moved together: the same image
 /// over texels at other positions.
 fn visibility_with_scene_at(gpu: &shadowgraph::Gpu, offset: DVec3) -> (Vec<f32>, Vec<f32>) {
-    let cases = built_in_cases().unwrap().cases;
-    let case = cases.iter().find(|case| case.name() == "slats").unwrap();
-    let mut scene = test_scene("slats").unwrap();
-    scene.insert_light(case.sun(30.0));
+    let (mut scene, mut camera) = sunlit("slats");
     move_instances(&mut scene, offset);
-    let mut camera = case.views[0].camera();
     camera.world_from_view.translation += offset;
     let options = ViewOptions { camera, size_px: SIZE_PX, shadows: ShadowSettings::default() };
     let mut renderer = Renderer::new(gpu, scene, &options.camera, Aov::Visibility(0)).unwrap();
@@ -135,11 +134,7 @@ fn texels_that_slide_over_a_scene_are_measured_as_flicker_and_fixed_ones_are_not
     let sliding = metrics::flicker(&sliding, &truths).unwrap();
     assert!(sliding.p99 > 10.0 / 255.0, "{sliding:?}");
 
-    let cases = built_in_cases().unwrap().cases;
-    let case = cases.iter().find(|case| case.name() == "slats").unwrap();
-    let mut scene = test_scene("slats").unwrap();
-    scene.insert_light(case.sun(30.0));
-    let camera = case.views[0].camera();
+    let (scene, camera) = sunlit("slats");
     let options = ViewOptions { camera, size_px: SIZE_PX, shadows: ShadowSettings::default() };
     let mut renderer = Renderer::new(gpu, scene, &options.camera, Aov::Visibility(0)).unwrap();
     let found = measure_flicker(gpu, &mut renderer, PCF.into(), &options, 0, 4).unwrap();
@@ -152,12 +147,9 @@ fn texels_that_slide_over_a_scene_are_measured_as_flicker_and_fixed_ones_are_not
 #[test]
 fn cascades_of_different_resolution_are_measured_at_their_seam() {
     let Some(gpu) = gpu() else { return };
-    let cases = built_in_cases().unwrap().cases;
-    let case = cases.iter().find(|case| case.name() == "slats").unwrap();
-    let mut scene = test_scene("slats").unwrap();
-    scene.insert_light(case.sun(30.0));
+    let (scene, camera) = sunlit("slats");
     let seam = |shadows: ShadowSettings| {
-        let options = ViewOptions { camera: case.views[0].camera(), size_px: SIZE_PX, shadows };
+        let options = ViewOptions { camera: camera.clone(), size_px: SIZE_PX, shadows };
         let mut renderer = Renderer::new(gpu, scene.clone(), &options.camera, Aov::Visibility(0)).unwrap();
         let reference =
             Comparator::new(gpu, &renderer, 0).unwrap().reference(&mut renderer, &options, 0).unwrap();

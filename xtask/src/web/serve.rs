@@ -42,7 +42,6 @@ fn answer(mut stream: TcpStream, directory: &Path) -> std::io::Result<()> {
         return stream
             .write_all(b"HTTP/1.1 400 Bad Request\r\ncontent-length: 0\r\nconnection: close\r\n\r\n");
     };
-    let is_head = request.starts_with("HEAD ");
     let Ok(mut file) = File::open(directory.join(&path)) else {
         return stream.write_all(b"HTTP/1.1 404 Not Found\r\ncontent-length: 0\r\nconnection: close\r\n\r\n");
     };
@@ -51,7 +50,7 @@ fn answer(mut stream: TcpStream, directory: &Path) -> std::io::Result<()> {
         stream,
         "HTTP/1.1 200 OK\r\ncontent-type: {kind}\r\ncontent-length: {length}\r\ncache-control: no-cache\r\nconnection: close\r\n\r\n"
     )?;
-    if !is_head {
+    if !request.starts_with("HEAD ") {
         std::io::copy(&mut file, &mut stream)?;
     }
     Ok(())
